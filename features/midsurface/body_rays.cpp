@@ -71,14 +71,13 @@ BodyRays::BodyRays(const SurfaceModel& model)
       regions(fine) {
   std::vector<Box<Vec3>> boxes;
   begin = kBegin * diagonal(fine);
-  double volume = 0;
   for (const auto& [a, b, c] : fine.triangles) {
     const Vec3 &x = fine.points[a], &y = fine.points[b], &z = fine.points[c];
     boxes.push_back(Box<Vec3>::around({x, y, z}).grown(begin));
-    volume += dot(x - fine.points[fine.triangles[0][0]], cross(y - x, z - x));
+    volume += dot(x - fine.points[fine.triangles[0][0]], cross(y - x, z - x)) / 6;
   }
   tree = BoxTree<Vec3>(boxes);
-  if (volume < 0) inward_sign = 1;
+  if (volume < 0) inward_sign = 1, volume = -volume;
   measure_curves();
   sample();
 }

@@ -53,7 +53,8 @@ struct BodyRays {
   std::shared_ptr<const SurfaceProjector> projector;
   NearestOnRegions regions;
   BoxTree<Vec3> tree;
-  double begin = 0;                           ///< least length of a ray
+  double begin = 0;  ///< least length of a ray
+  double volume = 0;
   double inward_sign = -1;                    ///< times a triangle's normal
   std::vector<std::vector<Sample>> samples;   ///< by face
   std::vector<double> median_thickness;       ///< by face, the median

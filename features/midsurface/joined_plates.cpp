@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/segment.h"
-#include "base/text.h"
 #include "delquad/error.h"
 #include "features/midsurface/planes.h"
 #include "geometry/mesh/constrained_delaunay.h"
@@ -34,10 +33,14 @@ constexpr double kNarrow = 3;
 
 /// Least distance from a face to the end of the body at a rounded rim, in thicknesses.
 constexpr double kRounded = 0.05;
-/// How much the distance to the other side may differ from the thickness.
+/// How much the distance to the other side may differ from the thickness, and an outline that joins others
+/// from theirs.
 constexpr double kAlike = 0.1;
 /// Distance of points from a chord of a curved joint, over its length.
 constexpr double kBent = 0.06;
+
+/// How much the volume of all plates may differ from the volume of the body.
+constexpr double kOther = 0.15;
 
 struct PlateFace {
   bool is_flat = true;
@@ -52,7 +55,7 @@ struct PlateFace {
 /// A piece of the outline of a chosen face, in its direction: the face lies on the left.
 struct Piece {
   int a, b, face, curve;
-  bool is_bent = false;  ///< on a curved plate
+  bool joins = false, is_bent = false;  ///< another plate, one of them curved
 };
 
 /// A side of a triangle on the outline of a plate.
@@ -77,9 +80,12 @@ class JoinedPlates {
     move_outlines();
     divide_outlines();
     triangulate();
-    check_faces();
     const bool joins = do_join();
-    if (!joins && (fault_.first >= 0 || !has_rounded_rim())) return std::nullopt;
+    check_faces();
+    const bool is_rounded = std::ranges::any_of(outlines_, [&](const Outline& o) {
+      return o.is_rim && o.to_end > kRounded * faces_[o.face].thickness;
+    });
+    if (!joins && (fault_.first >= 0 || !is_rounded)) return std::nullopt;
     if (fault_.first >= 0)
       throw InputError(
           fmt::format("{}: {}: {} [no-midsurface]", body_.source, body_.show(fault_.first), fault_.second));
@@ -170,8 +176,14 @@ class JoinedPlates {
     if (area > 0) face.thickness = sum / area;
   }
 
-  /// Plates must have one thickness, and all other faces must be rims, welds or fillets.
+  /// Plates must have one thickness and be nearly all of the body. All other faces must be rims, welds or
+  /// fillets.
   void check_faces() {
+    if (std::abs(held_ / body_.volume - 1) > kOther)
+      fault_ = {static_cast<int>(std::ranges::find(faces_, true, &PlateFace::is_chosen) - faces_.begin()),
+                fmt::format("this plate and those that it joins have {:.0f} % of the body's volume. Part the "
+                            "body where it is thick",
+                            100 * held_ / body_.volume)};
     const double thickest = std::ranges::max_element(faces_, {}, &PlateFace::thickness)->thickness;
     for (int f = 0; f < size(); ++f) {
       const PlateFace& face = faces_[f];
@@ -199,7 +211,7 @@ class JoinedPlates {
   }
   Outline look(const HalfEdge& side, int face, int other) const {
     Outline found{side.run(), face, other, is_plate(other) ? other : -1};
-    const double thickness = faces_[face].thickness, back = thickness / 4;
+    const double thickness = faces_[face].thickness, back = 0.75 * thickness;
     const Vec3 a = fine_.points[found.ends[0]], b = fine_.points[found.ends[1]];
     const Vec3 normal = body_.normal(side.element), across = cross(b - a, normal);
     if (is_plate(other) || !(norm(across) > 0)) return found;
@@ -219,46 +231,33 @@ class JoinedPlates {
 
   /// Takes the side whose outline is known, else the longer outline: it has the feet of other plates.
   void choose_sides() {
-    std::vector<std::array<std::array<double, 2>, 2>> lengths(n_plates_);  // unknown, all
+    std::vector<std::array<std::array<double, 2>, 2>> lengths(n_plates_);  // of unknown parts, and less all
     for (const Outline& o : outlines_) {
       const PlateFace &face = faces_[o.face], &other = faces_[o.other];
       if (other.plate == face.plate && other.side == face.side) continue;
       const double length = norm(fine_.points[o.ends[1]] - fine_.points[o.ends[0]]);
       if (o.plate < 0 && !o.is_rim) lengths[face.plate][face.side][0] += length;
-      lengths[face.plate][face.side][1] += length;
+      lengths[face.plate][face.side][1] -= length;
     }
-    for (PlateFace& face : faces_) {
-      if (face.plate < 0) continue;
-      const auto& [first, second] = lengths[face.plate];
-      const bool takes_second =
-          std::abs(second[0] - first[0]) > near_ ? second[0] < first[0] : second[1] > first[1] + near_;
-      face.is_chosen = face.side == (takes_second ? 1 : 0);
-    }
+    for (PlateFace& face : faces_)
+      face.is_chosen = face.plate >= 0 && face.side == int{lengths[face.plate][1] < lengths[face.plate][0]};
   }
 
-  /// Returns the way through a face to half the thickness.
-  Vec3 half_way(int f, int v) const {
-    const PlateFace& face = faces_[f];
-    const Vec3 normal = face.is_flat ? face.inwards : inwards_.at({f, v});
-    for (const auto& [g, area] : face.opposite) {
-      if (face.is_flat) break;
-      const Vec3 way = body_.nearest(g, fine_.points[v]) - fine_.points[v];
-      if (std::abs(norm(way) / face.thickness - 1) < kAlike) return 0.5 * way;
-    }
-    return face.thickness / 2 * normal;
-  }
   /// Adds the mid-plane of a face, seen from a point of the same or of another plate.
   void add_middle(int f, int v, Planes& planes) const {
     const PlateFace& face = faces_[f];
     const Vec3 x = fine_.points[v];
-    Vec3 way;
-    if (face.is_flat)
-      way = (dot(face.inwards, face.at - x) + face.thickness / 2) * face.inwards;
-    else if (inwards_.contains({f, v}))
-      way = half_way(f, v);
-    else if (way = body_.nearest(f, x) - x; norm(way) > 0)
-      way = (1 + face.thickness / 2 / norm(way)) * way;
-    if (norm(way) > 0) planes.add((1 / norm(way)) * way, norm(way));
+    if (face.is_flat) return planes.add(face.inwards, dot(face.inwards, face.at - x) + face.thickness / 2);
+    const auto inwards = inwards_.find({f, v});
+    const Vec3 to_face = body_.nearest(f, x) - x;
+    if (inwards == inwards_.end() && norm(to_face) > near_)
+      return planes.add((1 / norm(to_face)) * to_face, norm(to_face) + face.thickness / 2);
+    for (const auto& [g, area] : face.opposite) {
+      const Vec3 way = body_.nearest(g, x) - x;
+      if (std::abs(norm(way) / face.thickness - 1) < kAlike)
+        return planes.add((1 / norm(way)) * way, norm(way) / 2);
+    }
+    planes.add(inwards == inwards_.end() ? face.inwards : inwards->second, face.thickness / 2);
   }
 
   /// Moves the points of chosen faces half-way, and their outlines to where plates join or end.
@@ -286,26 +285,22 @@ class JoinedPlates {
     for (const auto& [ends, f, other, plate, is_rim, to_end, out] : outlines_) {
       if (!faces_[f].is_chosen) continue;
       const int curve = curves.at(std::minmax(ends[0], ends[1]));
-      const bool bends = plate >= 0 && !(faces_[f].is_flat && faces_[plate].is_flat);
-      pieces_.push_back({index_.at({f, ends[0]}), index_.at({f, ends[1]}), f, curve, bends});
+      const bool joins = plate >= 0, bends = joins && !(faces_[f].is_flat && faces_[plate].is_flat);
+      pieces_.push_back({index_.at({f, ends[0]}), index_.at({f, ends[1]}), f, curve, joins, bends});
       if (!is_plate(other))
         add_names(fine_.regions[other].names, fine_.regions[f].names, made_.curves[curve].names);
     }
   }
 
-  BoxTree<Vec3> tree_of_pieces() const {
+  /// Adds a point where two pieces cross.
+  void add_crossings() {
     std::vector<Box<Vec3>> boxes;
     for (const Piece& p : pieces_)
       boxes.push_back(Box<Vec3>::around({points_[p.a], points_[p.b]}).grown(near_));
-    return BoxTree<Vec3>(boxes);
-  }
-
-  /// Adds a point where two pieces cross.
-  void add_crossings() {
-    const BoxTree<Vec3> tree = tree_of_pieces();
+    const BoxTree<Vec3> tree(boxes);
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Vec3 x = points_[pieces_[i].a], u = points_[pieces_[i].b] - x;
-      tree.overlapping(Box<Vec3>::around({x, x + u}).grown(near_), [&](int j) {
+      tree.overlapping(boxes[i], [&](int j) {
         if (j <= static_cast<int>(i)) return;
         const Vec3 y = points_[pieces_[j].a], w = points_[pieces_[j].b] - y, n = cross(u, w);
         if (norm(n) <= kNear * norm(u) * norm(w)) return;
@@ -346,33 +341,38 @@ class JoinedPlates {
       std::ranges::sort(on);
       for (std::size_t k = 0; k + 1 < on.size(); ++k) {
         if (on[k].second == on[k + 1].second) continue;
-        parts.push_back({on[k].second, on[k + 1].second, p.face, p.curve});
+        parts.push_back({on[k].second, on[k + 1].second, p.face, p.curve, p.joins});
         if (k > 0) inside_[{p.face, on[0].second, on.back().second}].push_back(on[k].second);
       }
     }
     pieces_ = std::move(parts);
   }
 
-  std::map<std::pair<int, int>, std::vector<const Piece*>> pieces_by_ends() const {
-    std::map<std::pair<int, int>, std::vector<const Piece*>> at;
-    for (const Piece& p : pieces_) at[std::minmax(p.a, p.b)].push_back(&p);
-    return at;
-  }
-  /// Returns whether three triangles meet at an edge.
-  bool do_join() const {
+  /// Returns whether three triangles meet at an edge. Outlines beside plates must meet them.
+  bool do_join() {
     bool joins = false;
-    for_each_edge(sorted_half_edges(made_), [&](const auto& edge) { joins = joins || edge.size() > 2; });
+    std::set<std::pair<int, int>> open;
+    for_each_edge(sorted_half_edges(made_), [&](std::span<const HalfEdge> edge) {
+      joins = joins || edge.size() > 2;
+      if (edge.size() == 1) open.emplace(edge[0].lo, edge[0].hi);
+    });
+    std::map<int, std::array<double, 2>> lengths;  // by face: all, and open ones
+    for (const Piece& p : pieces_) {
+      if (!p.joins) continue;
+      const double length = norm(points_[p.b] - points_[p.a]);
+      auto& [all, alone] = lengths[p.face];
+      all += length;
+      if (open.contains(std::minmax(p.a, p.b))) alone += length;
+    }
+    for (const auto& [f, length] : lengths)
+      if (length[1] > kAlike * length[0])
+        fault_ = {f, "its mid-surface misses the plates beside it. Part the body there"};
     return joins;
   }
 
-  /// Returns whether the body goes on beside an outline, as at fillets and chamfers.
-  bool has_rounded_rim() const {
-    return std::ranges::any_of(outlines_, [&](const Outline& o) {
-      return o.is_rim && o.to_end > kRounded * faces_[o.face].thickness;
-    });
-  }
-
   void add_triangle(std::array<int, 3> v, int face) {
+    const Vec3 &x = made_.points[v[0]], &y = made_.points[v[1]], &z = made_.points[v[2]];
+    held_ += norm(cross(y - x, z - x)) / 2 * faces_[face].thickness;
     made_.triangles.push_back(v);
     made_.triangle_region.push_back(face);
     made_.thickness.push_back(faces_[face].thickness);
@@ -461,7 +461,9 @@ class JoinedPlates {
     for (int f = 0; f < size(); ++f)
       for (const auto& [g, area] : faces_[f].opposite)
         if (faces_[f].is_chosen && area >= 0) add_names(fine_.regions[g].names, {}, made_.regions[f].names);
-    for (const auto& [ends, pieces] : pieces_by_ends()) {
+    std::map<std::pair<int, int>, std::vector<const Piece*>> at;
+    for (const Piece& p : pieces_) at[std::minmax(p.a, p.b)].push_back(&p);
+    for (const auto& [ends, pieces] : at) {
       const Piece& p = *pieces[0];
       if (pieces.size() == 2 && pieces[1]->face == p.face) continue;
       made_.lines.push_back({p.a, p.b});
@@ -480,6 +482,7 @@ class JoinedPlates {
   std::vector<int> names_;  ///< the point in place of each
   std::vector<Outline> outlines_;
   std::vector<Piece> pieces_;
+  double held_ = 0;                                               ///< volume of plates
   std::map<std::tuple<int, int, int>, std::vector<int>> inside_;  ///< points, by face and ends of a piece
   std::pair<int, std::string> fault_ = {-1, ""};                  ///< a face, and what is wrong there
   Mesh made_;
