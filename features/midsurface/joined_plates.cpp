@@ -47,7 +47,7 @@ struct PlateFace {
   Vec3 at, inwards;  ///< a point, and the normal of a flat face
   double area = 0, width = 0, thickness = 0;
   double least = std::numeric_limits<double>::infinity(), most = 0;  ///< of the thickness
-  std::map<int, double> opposite;                                    ///< faces, with the area that faces them
+  std::set<int> opposite;                                            ///< faces
   int plate = -1, side = 0;                                          ///< -1: a rim, weld or fillet
   bool is_chosen = false;
 };
@@ -98,66 +98,57 @@ class JoinedPlates {
   bool is_plate(int face) const { return faces_[face].plate >= 0; }
 
   void measure_faces() {
-    std::vector<double> largest(faces_.size(), 0);
     for (std::size_t t = 0; t < fine_.triangles.size(); ++t) {
-      const auto& [a, b, c] = fine_.triangles[t];
-      const Vec3 n = cross(fine_.points[b] - fine_.points[a], fine_.points[c] - fine_.points[a]);
-      PlateFace& face = faces_[fine_.triangle_region[t]];
-      face.area += norm(n) / 2;
-      for (const int v : fine_.triangles[t]) {
-        Vec3& sum = inwards_[{fine_.triangle_region[t], v}];
-        sum = sum + body_.inward_sign * n;
-      }
-      if (norm(n) <= largest[fine_.triangle_region[t]]) continue;
-      largest[fine_.triangle_region[t]] = norm(n);
-      face.at = fine_.points[a];
-      face.inwards = (body_.inward_sign / norm(n)) * n;
+      const auto& v = fine_.triangles[t];
+      const Vec3 x = fine_.points[v[0]];
+      const Vec3 n = body_.inward_sign * cross(fine_.points[v[1]] - x, fine_.points[v[2]] - x);
+      const int f = fine_.triangle_region[t];
+      faces_[f].area += norm(n) / 2;
+      if (norm(n) > norm(faces_[f].inwards)) faces_[f].at = x, faces_[f].inwards = n;
+      for (const int i : v) inwards_[{f, i}] = inwards_[{f, i}] + n;
+    }
+    for (int f = 0; f < size(); ++f) {
+      PlateFace& face = faces_[f];
+      if (face.area > 0) face.inwards = (1 / norm(face.inwards)) * face.inwards;
+      double outline = 0;
+      for (const auto& [g, length] : body_.shared[f]) outline += length;
+      if (outline > 0) face.width = 2 * face.area / outline;
     }
     for (auto& [key, sum] : inwards_) {
       PlateFace& face = faces_[key.first];
       if (std::abs(dot(fine_.points[key.second] - face.at, face.inwards)) > near_) face.is_flat = false;
       if (norm(sum) > 0) sum = (1 / norm(sum)) * sum;
     }
-    for (int f = 0; f < size(); ++f) {
-      double outline = 0;
-      for (const auto& [g, length] : body_.shared[f]) outline += length;
-      if (outline > 0) faces_[f].width = 2 * faces_[f].area / outline;
-    }
   }
 
   /// Plates are components of opposite faces. Returns whether there are any.
   bool find_plates() {
-    for (int f = 0; f < size(); ++f)
+    for (int f = 0; f < size(); ++f) {
+      PlateFace& face = faces_[f];
+      std::map<int, double> areas;
       for (const BodyRays::Sample& s : body_.samples[f])
         if (s.opposite >= 0 && s.facing >= BodyRays::kParallel &&
-            kWide[faces_[f].is_flat] * s.distance <= std::min(faces_[f].width, faces_[s.opposite].width))
-          faces_[f].opposite[s.opposite] += s.area;
-    for (int f = 0; f < size(); ++f)
-      std::erase_if(faces_[f].opposite, [&](const auto& other) {
-        return other.second < kFacing[faces_[f].is_flat && faces_[other.first].is_flat] *
-                                  std::min(faces_[f].area, faces_[other.first].area);
-      });
-    for (int f = 0; f < size(); ++f)
-      for (const auto& [g, area] : faces_[f].opposite) faces_[g].opposite.try_emplace(f, 0);
+            kWide[face.is_flat] * s.distance <= std::min(face.width, faces_[s.opposite].width))
+          areas[s.opposite] += s.area;
+      for (const auto& [g, area] : areas)
+        if (area >= kFacing[face.is_flat && faces_[g].is_flat] * std::min(face.area, faces_[g].area))
+          face.opposite.insert(g), faces_[g].opposite.insert(f);
+    }
     for (int first = 0; first < size(); ++first) {
       if (is_plate(first) || faces_[first].opposite.empty()) continue;
       std::vector<int> plate = {first};
-      faces_[first].plate = n_plates_;
+      faces_[first].plate = n_plates_++;
       for (std::size_t i = 0; i < plate.size(); ++i)
-        for (const auto& [g, area] : faces_[plate[i]].opposite) {
-          if (!is_plate(g)) {
-            faces_[g].plate = n_plates_, faces_[g].side = 1 - faces_[plate[i]].side;
-            plate.push_back(g);
-          } else if (faces_[g].side == faces_[plate[i]].side) {
-            return false;
-          }
+        for (const int g : faces_[plate[i]].opposite) {
+          if (faces_[g].plate == faces_[first].plate && faces_[g].side == faces_[plate[i]].side) return false;
+          if (is_plate(g)) continue;
+          faces_[g].plate = faces_[first].plate, faces_[g].side = 1 - faces_[plate[i]].side;
+          plate.push_back(g);
         }
-      ++n_plates_;
     }
-    for (int f = 0; f < size(); ++f)
-      if (is_plate(f)) measure_thickness(f);
+    for (int f = 0; f < size(); ++f) measure_thickness(f);
     for (PlateFace& face : faces_)
-      for (const auto& [g, area] : face.opposite)
+      for (const int g : face.opposite)
         if (face.thickness == 0) face.thickness = faces_[g].thickness;
     return n_plates_ > 0;
   }
@@ -166,8 +157,7 @@ class JoinedPlates {
     PlateFace& face = faces_[f];
     double sum = 0, area = 0;
     for (const BodyRays::Sample& s : body_.samples[f]) {
-      const auto other = face.opposite.find(s.opposite);
-      if (other == face.opposite.end() || other->second == 0) continue;
+      if (s.facing < BodyRays::kParallel || !face.opposite.contains(s.opposite)) continue;
       const Vec3 x = face.is_flat ? s.at : body_.nearest(f, s.at);
       const double distance = face.is_flat ? s.distance : norm(body_.nearest(s.opposite, x) - x);
       face.least = std::min(face.least, distance), face.most = std::max(face.most, distance);
@@ -252,7 +242,7 @@ class JoinedPlates {
     const Vec3 to_face = body_.nearest(f, x) - x;
     if (inwards == inwards_.end() && norm(to_face) > near_)
       return planes.add((1 / norm(to_face)) * to_face, norm(to_face) + face.thickness / 2);
-    for (const auto& [g, area] : face.opposite) {
+    for (const int g : face.opposite) {
       const Vec3 way = body_.nearest(g, x) - x;
       if (std::abs(norm(way) / face.thickness - 1) < kAlike)
         return planes.add((1 / norm(way)) * way, norm(way) / 2);
@@ -459,8 +449,8 @@ class JoinedPlates {
   void add_lines() {
     made_.regions = fine_.regions;
     for (int f = 0; f < size(); ++f)
-      for (const auto& [g, area] : faces_[f].opposite)
-        if (faces_[f].is_chosen && area >= 0) add_names(fine_.regions[g].names, {}, made_.regions[f].names);
+      for (const int g : faces_[f].opposite)
+        if (faces_[f].is_chosen) add_names(fine_.regions[g].names, {}, made_.regions[f].names);
     std::map<std::pair<int, int>, std::vector<const Piece*>> at;
     for (const Piece& p : pieces_) at[std::minmax(p.a, p.b)].push_back(&p);
     for (const auto& [ends, pieces] : at) {
