@@ -11,7 +11,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <unordered_map>
 
 #include "base/located.h"
 #include "base/text.h"
@@ -31,21 +30,6 @@ double area(const Mesh& mesh, const std::array<int, 3>& v) {
   return norm(cross(mesh.points[v[1]] - mesh.points[v[0]], mesh.points[v[2]] - mesh.points[v[0]])) / 2;
 }
 
-/// The values of tags, in their order; NaN where there is none.
-std::vector<double> in_order(const msh::View& view, const std::vector<long long>& tags) {
-  std::unordered_map<long long, std::size_t> place;
-  for (std::size_t i = 0; i < view.values.size(); ++i) place[view.values[i].first] = i;
-  const auto further = static_cast<std::size_t>(view.n_components - 1);
-  std::vector<double> result;
-  for (const long long tag : tags) {
-    const auto found = place.find(tag);
-    result.push_back(found == place.end() ? kNoValue : view.values[found->second].second);
-    for (std::size_t k = 0; k < further; ++k)
-      result.push_back(found == place.end() ? kNoValue : view.further[found->second * further + k]);
-  }
-  return result;
-}
-
 MeshWithFields read_msh_fields(const std::filesystem::path& path, const FieldChoice& choice) {
   TextScanner scanner(path);
   refuse_other_kinds(scanner, "MSH");
@@ -62,7 +46,7 @@ MeshWithFields read_msh_fields(const std::filesystem::path& path, const FieldCho
     if (dimension_of(static_cast<CellShape>(s)) == dimension_of(result.mesh))
       of_elements.insert(of_elements.end(), tags.elements[s].begin(), tags.elements[s].end());
   for (const std::size_t i : chosen) {
-    all[i].values = in_order(views[i], all[i].is_of_points ? tags.points : of_elements);
+    all[i].values = msh::in_order(views[i], all[i].is_of_points ? tags.points : of_elements);
     result.fields.push_back(std::move(all[i]));
   }
   return result;

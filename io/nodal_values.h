@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/mesh_io.h"
@@ -28,6 +30,16 @@ std::size_t choose_field(const std::vector<MeshField>& fields, const std::string
 using FieldChoice = std::function<std::vector<std::size_t>(const std::vector<MeshField>&)>;
 /// Reads the selected fields of a VTU file. Throws InputError with the file.
 MeshWithFields read_vtu_fields(const std::filesystem::path& path, const FieldChoice& choice);
+
+/// Returns whether a field is Mesh::thickness, by its name and form.
+inline bool is_thickness(const MeshField& field) {
+  return field.name == "thickness" && !field.is_of_points && field.n_components == 1;
+}
+/// Sets the thickness of a mesh, unless an element has none.
+inline void set_thickness(std::vector<double> values, Mesh& mesh) {
+  if (!is_solid(mesh) && std::ranges::all_of(values, [](double t) { return t > 0; }))
+    mesh.thickness = std::move(values);
+}
 
 /// Throws InputError if a mesh has more points than its file.
 void require_own_points(const Mesh& mesh, std::size_t n_points, const std::filesystem::path& path);

@@ -16,6 +16,9 @@
 #include "features/metric/metric_surface.h"
 #include "features/midsurface/opposite_sides.h"
 #include "features/scaling/scale_sizes.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/split_polygon.h"
 #include "geometry/patches/meshing_setup.h"
 #include "io/cases/read_problem.h"
 #include "mesher/finish_steps.h"
@@ -120,6 +123,22 @@ Pipeline pipeline_of_quality(const Quality& quality, MeshProblem& problem) {
   return parse_pipeline(quality.pipeline);
 }
 
+/// Gives the elements of an improved mesh the thickness of the nearest given ones.
+void keep_thickness(MeshResult& result) {
+  const auto* given = std::get_if<GivenMesh>(&result.prepared.problem().model);
+  if (given == nullptr || given->mesh.thickness.empty()) return;
+  Mesh from = given->mesh;
+  ReadNotes ignored;
+  split_quads(from, ignored);
+  const NearestTriangle nearest(from.points, from.triangles);
+  Mesh& made = result.mesh;
+  for_each_element(made, [&](int, const auto& v) {
+    Vec3 sum;
+    for (const int i : v) sum = sum + (1.0 / static_cast<double>(v.size())) * made.points[i];
+    made.thickness.push_back(from.thickness[nearest.find(sum).triangle]);
+  });
+}
+
 /// Moves meshes of thin bodies from one side half-way to the other, where quads are measured and checked
 /// again.
 void move_to_midsurface(MeshResult& result) {
@@ -191,6 +210,7 @@ MeshResult Meshing::finish() {
   result.prepared = std::move(prepared);
   add_preparation(result);
   move_to_midsurface(result);
+  keep_thickness(result);
   return result;
 }
 

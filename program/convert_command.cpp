@@ -55,13 +55,15 @@ int convert_command(const ConvertArguments& arguments) {
   auto [mesh, fields] =
       is_kept ? MeshWithFields{read_given_mesh(arguments.mesh), {}} : read_whole(arguments.mesh, notes, lost);
   if (!fields.empty() && (!holds_fields(arguments.output) || arguments.weld > 0 || arguments.msh.triangles)) {
-    std::vector<std::string> names;
-    for (const MeshField& field : fields) names.push_back(field.name);
-    lost.push_back(fmt::format(
-        "fields, which are written to .msh and .vtu alone, and not with --weld or --triangles: {}",
-        fmt::join(names, ", ")));
-    fields.clear();
     mesh = read_mesh(arguments.mesh);  // without points that carry fields alone
+    std::vector<std::string> names;
+    for (const MeshField& field : fields)
+      if (field.name != "thickness" || mesh.thickness.empty()) names.push_back(field.name);
+    if (!names.empty())
+      lost.push_back(fmt::format(
+          "fields, which are written to .msh and .vtu alone, and not with --weld or --triangles: {}",
+          fmt::join(names, ", ")));
+    fields.clear();
   }
   if (arguments.weld > 0) require_straight(mesh, arguments.mesh.string());
   std::string joined =

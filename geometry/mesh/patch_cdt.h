@@ -43,6 +43,11 @@ std::vector<typename Cdt::Vertex_handle> insert(Cdt& cdt, const PatchBoundary& b
       throw InputError(fmt::format("two points of a patch coincide at ({}, {})", points[i].x, points[i].y));
   for (const auto& [i, j] : boundary.edges) {
     const Vec2 a = points[i], b = points[j];
+    typename Cdt::Face_handle face;
+    int side = 0;
+    if (cdt.is_edge(vertex[i], vertex[j], face, side) && face->is_constrained(side) &&
+        std::ranges::find(boundary.edges, std::array{j, i}) != boundary.edges.end())
+      continue;  // the other side of a slit
     try {
       cdt.insert_constraint(vertex[i], vertex[j]);
     } catch (const typename Cdt::Intersection_of_constraints_exception&) {

@@ -75,8 +75,8 @@ struct MeshTags {
   std::array<std::vector<long long>, kCellShapes> elements;  ///< by shape
 };
 
-/// Returns the sections of a file [Gmsh reference manual, "MSH file format" and "Legacy formats"]; views only
-/// on request. Throws InputError with file and line, or byte.
+/// Returns the sections of a file [Gmsh reference manual, "MSH file format" and "Legacy formats"]. Without
+/// `with_views` the thickness of elements is the only view. Throws InputError with file and line, or byte.
 Contents read_contents(TextScanner& scanner, bool with_views = false);
 
 /// Fills entity_physicals from the physical tags of elements, as in 2.2. An element in several groups is
@@ -91,5 +91,8 @@ std::vector<std::string> names_of(const Contents& contents, DimTag entity);
 /// the middles of quads of 8 nodes. Throws InputError for elements of several orders, unknown tags and an
 /// empty file.
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags = nullptr);
+
+/// Returns the values of tags, in their order; NaN: none.
+std::vector<double> in_order(const View& view, const std::vector<long long>& tags);
 
 }  // namespace delquad::msh

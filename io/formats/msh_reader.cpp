@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
 
 #include "io/face_reader.h"
 #include "io/formats/msh.h"
 #include "io/formats/msh_raw.h"
 #include "io/mesh_io.h"
+#include "io/nodal_values.h"
 
 namespace delquad {
 
@@ -213,6 +216,22 @@ Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
   return mesh;
 }
 
+std::vector<double> in_order(const View& view, const std::vector<long long>& tags) {
+  std::unordered_map<long long, std::size_t> place;
+  for (std::size_t i = 0; i < view.values.size(); ++i) place[view.values[i].first] = i;
+  const auto further = static_cast<std::size_t>(view.n_components - 1);
+  std::vector<double> result;
+  for (const long long tag : tags) {
+    const auto found = place.find(tag);
+    result.push_back(found == place.end() ? std::numeric_limits<double>::quiet_NaN()
+                                          : view.values[found->second].second);
+    for (std::size_t k = 0; k < further; ++k)
+      result.push_back(found == place.end() ? std::numeric_limits<double>::quiet_NaN()
+                                            : view.further[found->second * further + k]);
+  }
+  return result;
+}
+
 }  // namespace msh
 
 bool fits_msh(std::string_view name) {
@@ -230,7 +249,14 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces, Rea
   const bool is_curved = std::ranges::any_of(
       contents.elements, [](const msh::Element& e) { return e.dim() == 3 && e.n_further > 0; });
   if (notes != nullptr && is_curved) notes->push_back(kCornersOfCells);
-  return msh::to_mesh(std::move(contents), scanner);
+  const std::vector<msh::View> views = std::move(contents.views);
+  msh::MeshTags tags;
+  Mesh mesh = msh::to_mesh(std::move(contents), scanner, &tags);
+  std::vector<long long> faces = tags.elements[static_cast<size_t>(CellShape::kTriangle)];
+  const std::vector<long long>& quads = tags.elements[static_cast<size_t>(CellShape::kQuad)];
+  faces.insert(faces.end(), quads.begin(), quads.end());
+  for (const msh::View& view : views) set_thickness(msh::in_order(view, faces), mesh);
+  return mesh;
 }
 
 }  // namespace delquad

@@ -14,6 +14,7 @@
 #include "base/utf8.h"
 #include "io/formats/msh_raw.h"
 #include "io/mesh_io.h"
+#include "io/nodal_values.h"
 #include "io/text_scanner.h"
 
 namespace delquad::msh {
@@ -163,7 +164,7 @@ class SectionReader {
         {"Unit", &SectionReader::unit},
         {"PartitionedEntities", &SectionReader::partitioned}};
     const bool is_view = name == "NodeData" || name == "ElementData";
-    if (is_view && with_views_) return view(name);
+    if (is_view) return view(name);
     const auto reader = readers.find(name);
     contents_.has_periodic |= name == "Periodic";
     if (reader == readers.end()) return skip(name);
@@ -194,6 +195,7 @@ class SectionReader {
       if (open == close) in_.fail("expected a view's text in double quotes");
       if (k == 0) view.name = line.substr(open + 1, close - open - 1);
     }
+    if (!with_views_ && !is_thickness({view.name, view.is_of_nodes, 1, {}})) return skip(section);
     const long long n_reals = in_.integer("the number of a view's real numbers", 0, INT_MAX);
     for (long long k = 0; k < n_reals; ++k) in_.real("a view's real number");
     const long long n_integers = in_.integer("the number of a view's integers, at least 3", 3, INT_MAX);

@@ -76,6 +76,13 @@ std::string from_base64(std::string_view text, size_t* used = nullptr) {
   return bytes;
 }
 
+/// Chooses the field of a mesh's own thickness.
+const FieldChoice kThickness = [](const std::vector<MeshField>& all) {
+  const auto at = std::ranges::find_if(all, is_thickness);
+  return at == all.end() ? std::vector<std::size_t>()
+                         : std::vector{static_cast<std::size_t>(at - all.begin())};
+};
+
 class VtuReader {
  public:
   explicit VtuReader(const std::filesystem::path& path, ReadNotes* notes = nullptr)
@@ -84,6 +91,8 @@ class VtuReader {
   }
 
   Mesh read() {
+    const bool keeps_points = choice_ != nullptr;
+    if (!keeps_points) choice_ = &kThickness;
     parse();
     const Tree& file = child(tree_, "VTKFile");
     if (attribute(file, "type") != "UnstructuredGrid")
@@ -103,7 +112,13 @@ class VtuReader {
     if (notes_ != nullptr && has_curved_cells_) notes_->push_back(kCornersOfCells);
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
-    if (choice_ == nullptr) drop_unused_points(mesh_);
+    if (keeps_points) return std::move(mesh_);
+    drop_unused_points(mesh_);
+    if (fields_.empty()) return std::move(mesh_);
+    std::vector<double> thickness = std::move(of_shapes_[0][static_cast<size_t>(CellShape::kTriangle)]);
+    const std::vector<double>& of_quads = of_shapes_[0][static_cast<size_t>(CellShape::kQuad)];
+    thickness.insert(thickness.end(), of_quads.begin(), of_quads.end());
+    set_thickness(std::move(thickness), mesh_);
     return std::move(mesh_);
   }
 
@@ -313,8 +328,7 @@ class VtuReader {
                                                          tags(piece, {"curve"}, types.size()),
                                                          tags(piece, {"region", "face"}, types.size()),
                                                          tags(piece, {"volume"}, types.size())}};
-    std::vector<MeshField> fields;
-    if (choice_ != nullptr) fields = read_fields_of(piece, n_points, types.size());
+    const std::vector<MeshField> fields = read_fields_of(piece, n_points, types.size());
     double begin = 0;
     for (size_t c = 0; c < types.size(); ++c) {
       if (!(begin <= offsets[c] && offsets[c] <= static_cast<double>(corners.size())))
@@ -491,7 +505,7 @@ class VtuReader {
   Mesh mesh_;
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag
   NamedPoints point_names_;
-  const FieldChoice* choice_ = nullptr;                                  // of fields; null: none are read
+  const FieldChoice* choice_ = nullptr;                                  // of fields; null: thickness
   std::vector<MeshField> fields_;                                        // without the values of cells
   std::vector<std::array<std::vector<double>, kCellShapes>> of_shapes_;  // which these are
   ReadNotes* notes_;

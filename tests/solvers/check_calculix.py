@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """CalculiX computes with the meshes in INP files: check_calculix.py DELQUAD PROBLEM [WRITER]. Exit code 77: no ccx.
 
-PROBLEM: patch, shell_patch, strip, shell, periodic, materials, kept_deck, midsurface or joints, whose models WRITER writes.
+PROBLEM: patch, shell_patch, strip, shell, periodic, materials, kept_deck, midsurface, tee or joints, whose models WRITER writes.
 
 CalculiX prints seven digits of each number. A zero of the exact solution is printed with its size, so that it can be checked to rounding.
 Forces on nodes inside of a patch are zero to 1e-10 of forces on its boundary. All else is checked to seven digits.
@@ -471,6 +471,10 @@ def write_angle(path, pairs, width):
         quads += [(i, i + n, i + n + 2, i + 2), (i + 1, i + 3, i + n + 3, i + n + 1), (i, i + 2, i + 3, i + 1),
                   (i + n, i + n + 1, i + n + 3, i + n + 2)]
     triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    write_off(path, points, triangles)
+
+
+def write_off(path, points, triangles):
     with open(path, "w", encoding="utf-8") as file:
         file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
         file.writelines(" ".join(map(repr, p)) + "\n" for p in points)
@@ -489,22 +493,51 @@ def midsurface(delquad, folder):
     text = "".join(f'[[curve]]\nname = "{name}"\npolyline = {[list(p) for p in line]}\n' for name, line in outline)
     loop = 'size = 0.5\nloop = { curves = ["outer", "tip", "inner", "clamp"] }\ndivide = [{ name = "clamp", edges = 4 }, { name = "tip", edges = 4 }]\n'
     mesh(delquad, folder, "profile.toml", loop + text, "profile.msh")
-    subprocess.run([delquad, "-q", "extrude", os.path.join(folder, "profile.msh"), "--along", f"0,0,{width}", "--layers", "8", "--element",
-                    "C3D20R", "-o", os.path.join(folder, "solid.inp")], check=True)
+    extrude(delquad, folder, width, 8)
+    return forces_agree(folder, "clamp, 1, 6", "tip, 1, 1, 1.0", "clamp, 1, 3", "tip, 1, 1, 1.0")
+
+
+def extrude(delquad, folder, length, layers):
+    subprocess.run([delquad, "-q", "extrude", os.path.join(folder, "profile.msh"), "--along", f"0,0,{length}", "--layers", str(layers),
+                    "--element", "C3D20R", "-o", os.path.join(folder, "solid.inp")], check=True)
+
+
+def forces_agree(folder, held, moved, solid_held, solid_moved):
+    """Whether the forces that move the tip agree to 2 %, of shell.inp and of solid.inp."""
     found = {}
-    for name, section, held in (("shell", [], "clamp, 1, 6"), ("solid", ["*SOLID SECTION, ELSET=Eall, MATERIAL=SHEET"], "clamp, 1, 3")):
-        deck = ["*MATERIAL, NAME=SHEET", "*ELASTIC", f"{YOUNG}, {POISSON}", f"*INCLUDE, INPUT={name}.inp", *section, "*BOUNDARY", held,
-                "tip, 1, 1, 1.0", "*STEP", "*STATIC", "*NODE PRINT, NSET=tip, TOTALS=ONLY", "RF", "*END STEP", ""]
+    for name, section, lines in (("shell", [], [held, moved]),
+                                 ("solid", ["*SOLID SECTION, ELSET=Eall, MATERIAL=SHEET"], [solid_held, solid_moved])):
+        deck = ["*MATERIAL, NAME=SHEET", "*ELASTIC", f"{YOUNG}, {POISSON}", f"*INCLUDE, INPUT={name}.inp", *section, "*BOUNDARY", *lines,
+                "*STEP", "*STATIC", f"*NODE PRINT, NSET={lines[1].split(',')[0]}, TOTALS=ONLY", "RF", "*END STEP", ""]
         with open(os.path.join(folder, f"{name}_deck.inp"), "w", encoding="utf-8") as file:
             file.write("\n".join(deck))
         run_ccx(folder, f"{name}_deck")
         with open(os.path.join(folder, f"{name}_deck.dat"), encoding="utf-8") as file:
-            found[name] = [[float(word) for word in line.split()] for line in file if re.match(r" +-?[0-9]", line)][0][0]
+            rows = [[float(word) for word in line.split()] for line in file if re.match(r" +-?[0-9]", line)]
+        found[name] = max(map(abs, rows[0]))
     print(f"forces {found}: that of the shell is {found['shell'] / found['solid']:.4f} of that of the solid")
     return abs(found["shell"] / found["solid"] - 1) < 0.02
 
 
-PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials, kept_deck, midsurface, joints)}
+def tee(delquad, folder):
+    """A beam with the profile of a T, held at one end: the force that moves the other end by 1, against C3D20R."""
+    outline, length = [(-10, 0), (10, 0), (10, 2), (1, 2), (1, 17), (-1, 17), (-1, 2), (-10, 2)], 80
+    points = [(x, y, z) for y in (0, length) for x, z in outline]
+    ends = [(0, 1, 7), (1, 2, 7), (2, 3, 7), (3, 6, 7), (3, 4, 6), (4, 5, 6)]
+    triangles = ends + [(c + 8, b + 8, a + 8) for a, b, c in ends]
+    for i in range(8):
+        j = (i + 1) % 8
+        triangles += [(j, i, i + 8), (j, i + 8, j + 8)]
+    write_off(os.path.join(folder, "tee.off"), points, triangles)
+    names = ", ".join(f'{{ as = "{name}", at = [0, {y}, 8] }}' for name, y in (("clamp", 0), ("tip", length)))
+    mesh(delquad, folder, "tee.toml", f'model = "tee.off"\nsize = 1.5\nsurface = {{ midsurface = true, name = [{names}] }}\n', "shell.inp")
+    text = f'size = 0.5\nloop = {{ polygon = {[list(p) for p in outline]}, boundary = "outline", region = "tee" }}\n'
+    mesh(delquad, folder, "profile.toml", text, "profile.msh")
+    extrude(delquad, folder, length, 16)
+    return forces_agree(folder, "clamp, 1, 6", "tip, 3, 3, 1.0", "tee_start, 1, 3", "tee_end, 2, 2, 1.0")
+
+
+PROBLEMS = {f.__name__: f for f in (patch, shell_patch, strip, shell, periodic, materials, kept_deck, midsurface, tee, joints)}
 
 
 def main():

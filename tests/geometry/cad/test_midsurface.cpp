@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepFilletAPI_MakeChamfer.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 
+#include "base/box.h"
 #include "base/text.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/mesh_io.h"
 #include "tests/geometry/cad/cad_files.h"
 #include "tests/support/meshing.h"
@@ -79,6 +84,27 @@ class Midsurface : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TopoDS_Shape fused(const std::vector<TopoDS_Shape>& parts) {
+  TopoDS_Shape all = parts[0];
+  for (std::size_t i = 1; i < parts.size(); ++i) all = BRepAlgoAPI_Fuse(all, parts[i]).Shape();
+  return all;
+}
+
+/// A prism over a triangle in a plane of constant y, 2 thick.
+TopoDS_Shape wedge(const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& c, double length) {
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire_of({a, b, c})).Face(), gp_Vec(0, length, 0))
+      .Shape();
+}
+
+/// The length of the edges with three quads or more, each once, and the number of quads at them.
+std::map<std::size_t, double> joints_of(const Mesh& mesh) {
+  std::map<std::size_t, double> lengths;
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    if (edge.size() > 2) lengths[edge.size()] += norm(mesh.points[edge[0].hi] - mesh.points[edge[0].lo]);
+  });
+  return lengths;
+}
+
 TEST_F(Midsurface, OfAnAngleWithBendAndHoles) {
   MeshProblem sheet = problem(sheet_as_solid(), 3);
   sheet.surface.names = {{.name = "clamp", .rule = {.box = {{Vec3{0, 0, 0}, Vec3{0, kWide, kThick}}}}},
@@ -146,11 +172,109 @@ TEST_F(Midsurface, OfAStep) {
   EXPECT_TRUE(holds(deck, "*SHELL SECTION, ELSET=thickness_1, MATERIAL=SHEET\n1\n"));
 }
 
+TEST_F(Midsurface, OfPlatesThatJoin) {
+  const auto expect_joint = [&](const TopoDS_Shape& shape, double size, double area,
+                                std::vector<double> thicknesses, std::map<std::size_t, double> joints) {
+    const Mesh made = expect_half_way(problem(shape, size), area, std::move(thicknesses));
+    const auto found = joints_of(made);
+    for (const auto& [n, length] : joints)
+      EXPECT_NEAR(found.contains(n) ? found.at(n) : 0, length, 1e-6) << n;
+    EXPECT_EQ(found.size(), joints.size());
+    return made;
+  };
+  const TopoDS_Shape base = cuboid(0, 0, 0, 60, 40, 2);
+  const Mesh tee =
+      expect_joint(fused({base, cuboid(29, 0, 2, 3, 40, 30)}), 4, 2400 + 31 * 40, {2, 3}, {{3, 40}});
+  for (std::size_t q = 0; q < tee.quads.size(); ++q) {
+    const auto [a, b, c, d] = tee.quads[q];
+    const bool is_base = std::abs(tee.points[a].z - 1) < 1e-9 && std::abs(tee.points[c].z - 1) < 1e-9;
+    EXPECT_NEAR(tee.thickness[q], is_base ? 2 : 3, 1e-6);
+    EXPECT_TRUE(is_base || std::abs(tee.points[b].x - 30.5) < 1e-9);
+  }
+  // A beam, a cross, and a box with an inner wall.
+  expect_joint(
+      fused({cuboid(0, 0, 0, 40, 100, 3), cuboid(19, 0, 3, 2, 100, 44), cuboid(0, 0, 47, 40, 100, 3)}), 5,
+      2 * 4000 + 47 * 100, {2, 3}, {{3, 200}});
+  expect_joint(fused({base, cuboid(29, 0, 2, 3, 40, 30), cuboid(29, 0, -30, 3, 40, 30)}), 4,
+               2400 + 2 * 31 * 40, {2, 3}, {{4, 40}});
+  const TopoDS_Shape box = BRepAlgoAPI_Cut(cuboid(0, 0, 0, 80, 50, 40), cuboid(2, 2, 2, 37, 46, 36)).Shape();
+  expect_joint(BRepAlgoAPI_Cut(box, cuboid(41, 2, 2, 37, 46, 36)).Shape(), 5,
+               2 * (78 * 48 + 78 * 38 + 48 * 38) + 48 * 38, {2}, {{3, 2 * (48 + 38)}});
+  // Ribs on both sides cross, and one ends inside the plate.
+  expect_joint(fused({cuboid(0, 0, 0, 100, 80, 3), cuboid(0, 19, 3, 100, 2, 20), cuboid(20, 59, 3, 60, 2, 20),
+                      cuboid(49, 0, -15, 2, 80, 15)}),
+               5, 8000 + 160 * 21.5 + 80 * 16.5, {2, 3}, {{3, 240}});
+  // A corner of two plates with a gusset, and welds beside a stem.
+  expect_joint(fused({cuboid(0, 0, 0, 60, 40, 3), cuboid(0, 0, 0, 3, 40, 60),
+                      wedge({3, 19, 3}, {43, 19, 3}, {3, 19, 43}, 2)}),
+               4, 2 * 58.5 * 40 + 43 * 43 / 2.0, {2, 3}, {{3, 86}});
+  expect_joint(fused({base, cuboid(29, 0, 2, 2, 40, 30), wedge({29, 0, 2}, {26, 0, 2}, {29, 0, 5}, 40),
+                      wedge({31, 0, 2}, {34, 0, 2}, {31, 0, 5}, 40)}),
+               4, 2400 + 31 * 40, {2}, {{3, 40}});
+}
+
+TEST_F(Midsurface, OfTubesThatJoinPlates) {
+  const auto cylinder = [](double radius) { return BRepPrimAPI_MakeCylinder(radius, 60).Shape(); };
+  const TopoDS_Shape fins = BRepAlgoAPI_Cut(cuboid(-35, -0.5, 0, 70, 1, 60), cylinder(19.5)).Shape();
+  const TopoDS_Shape tube = BRepAlgoAPI_Cut(cylinder(20), cylinder(19)).Shape();
+  const Mesh made = expect_half_way(problem(BRepAlgoAPI_Fuse(tube, fins).Shape(), 3),
+                                    2 * pi * 19.5 * 60 + 2 * 15.5 * 60, {1});
+  EXPECT_NEAR(joints_of(made)[3], 120, 1e-6);
+  const Mesh stood =
+      expect_half_way(problem(BRepAlgoAPI_Fuse(tube, cuboid(-50, -50, -2, 100, 100, 2)).Shape(), 3),
+                      1e4 + 2 * pi * 19.5 * 61, {1, 2});
+  EXPECT_NEAR(joints_of(stood)[3] / (2 * pi * 19.5), 1, 0.005);
+}
+
+TEST_F(Midsurface, OfRoundedRims) {
+  const auto cylinder = [](double x) {
+    return BRepPrimAPI_MakeCylinder(gp_Ax2({x, 0, 1.5}, {0, 1, 0}), 1.5, 50).Shape();
+  };
+  const Mesh half = expect_half_way(
+      problem(fused({cuboid(0, 0, 0, 80, 50, 3), cylinder(0), cylinder(80)}), 3), 83 * 50, {3});
+  EXPECT_NEAR(Box<Vec3>::around(half.points).low.x, -1.5, 0.01);
+  for (const bool is_round : {false, true}) {
+    const TopoDS_Shape plate = cuboid(0, 0, 0, 80, 50, 3);
+    BRepFilletAPI_MakeFillet fillet(plate);
+    BRepFilletAPI_MakeChamfer chamfer(plate);
+    for (TopExp_Explorer edge(plate, TopAbs_EDGE); edge.More(); edge.Next()) {
+      const BRepAdaptor_Curve curve(TopoDS::Edge(edge.Current()));
+      const double z = curve.Value(curve.FirstParameter()).Z();
+      if (z < 2.9 || curve.Value(curve.LastParameter()).Z() < 2.9) continue;
+      is_round ? fillet.Add(1, TopoDS::Edge(edge.Current())) : chamfer.Add(1, TopoDS::Edge(edge.Current()));
+    }
+    expect_half_way(problem(is_round ? fillet.Shape() : chamfer.Shape(), 3), 80 * 50, {3});
+  }
+}
+
+TEST_F(Midsurface, OfSeveralBodies) {
+  const TopoDS_Shape base = cuboid(0, 0, 0, 60, 40, 2), stem = cuboid(29, 0, 2, 3, 40, 30);
+  MeshProblem touching = problem(compound_of<TopoDS_Shape>({base, stem}), 4);
+  EXPECT_TRUE(joints_of(expect_half_way(touching, 60 * 40 + 30 * 40, {2, 3})).empty());
+  touching.surface.glue = true;
+  EXPECT_NEAR(joints_of(expect_half_way(touching, 60 * 40 + 31 * 40, {2, 3}))[3], 40, 1e-6);
+}
+
+TEST_F(Midsurface, KeepsTheThickness) {
+  const Mesh made =
+      mesh(problem(fused({cuboid(0, 0, 0, 60, 40, 2), cuboid(29, 0, 2, 3, 40, 30)}), 4), "good").mesh;
+  for (const char* name : {"joint.vtu", "joint.msh"}) {
+    write_mesh(folder_ / name, made);
+    const Mesh back = read_mesh(folder_ / name);
+    EXPECT_EQ(back.thickness, made.thickness) << name;
+    const Mesh better = mesh(problem_of(GivenMesh{back}), "good").mesh;
+    EXPECT_EQ(better.thickness.size(), better.quads.size());
+    EXPECT_EQ(std::ranges::count(better.thickness, made.thickness[0]) > 0, true);
+  }
+}
+
 TEST_F(Midsurface, RefusesWhatHasNone) {
   expect_refused(problem(cuboid(0, 0, 0, 10, 8, 6), 2), "DB", {"face", "thick", "[no-midsurface]"});
-  const TopoDS_Shape joint =
-      BRepAlgoAPI_Fuse(cuboid(0, 0, 0, 60, 40, 2), cuboid(29, 0, 2, 2, 40, 30)).Shape();
-  expect_refused(problem(joint, 4), "DB", {"face", "plates join", "[no-midsurface]"});
+  const TopoDS_Shape joint = fused({cuboid(0, 0, 0, 60, 40, 2), cuboid(29, 0, 2, 2, 40, 30)});
+  expect_refused(problem(fused({joint, cuboid(0, 0, 2, 20, 40, 1)}), 4), "DB",
+                 {"face", "the thickness changes from 2 to 3", "[no-midsurface]"});
+  expect_refused(problem(fused({joint, cuboid(5, 5, 2, 15, 15, 15)}), 4), "DB",
+                 {"face", "no opposite side, and too wide", "[no-midsurface]"});
   MeshProblem open = problem_of(ExampleModel{"sheet"}, 5);
   open.surface.midsurface = true;
   expect_refused(open, "DB", {"is open at", "[no-midsurface]"});
