@@ -6,7 +6,8 @@
 
 #include "delquad/mesh.h"
 
-// This header sweeps a mesh of quads to hexahedra and measures them. Programs that mesh solids use it.
+// This header sweeps quads to hexahedra, which it measures, and fills closed quads with cells. Programs that
+// mesh solids use it.
 
 namespace delquad {
 
@@ -64,5 +65,23 @@ struct HexMeasures {
 };
 /// Returns the measures of a mesh of hexahedra of order 1.
 HexMeasures measure(const Mesh& hexahedra);
+
+/// Kinds of cells in a volume.
+enum class VolumeCells {
+  kPyramidsAndTets,  ///< a pyramid on each quad, tetrahedra between
+  kTets,             ///< each quad is split into two triangles
+};
+
+struct VolumeOptions {
+  VolumeCells cells = VolumeCells::kPyramidsAndTets;
+  long long max_elements = 50'000'000;
+};
+
+/// Fills closed quads of order 1 with cells. Quads may enclose cavities and several bodies, also with quads
+/// between them. Points keep their numbers and places. Quads look outwards afterwards; with tetrahedra alone
+/// each becomes two triangles. Each body is a volume, with the names that all its faces share; a cavity is
+/// told to `notes`. The same input gives the same bytes. Throws InputError, with the place, for triangles,
+/// quads that are open or cross each other, and bodies that cannot be filled.
+Mesh fill_skin(const Mesh& skin, const VolumeOptions& options = {}, ReadNotes* notes = nullptr);
 
 }  // namespace delquad

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/fill_around.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "base/cancel.h"
+#include "features/volume/fill_void.h"
+#include "geometry/mesh/find_crossings.h"
+
+namespace delquad {
+
+namespace {
+
+/// Cells below this quality cost the hexahedra and prisms beside them.
+constexpr double kPoorQuality = 0.08;
+constexpr int kPoorRounds = 8;
+
+/// A face of the skin or of a hexahedron or prism, counterclockwise seen from outside of the void.
+struct OpenFace {
+  std::array<int, 4> corners;  ///< the last is -1 for a triangle
+  int owner;                   ///< face of the skin, quads first; -1 - i: cell i, hexahedra first
+};
+
+int n_of(const OpenFace& face) { return face.corners[3] < 0 ? 3 : 4; }
+
+/// Returns the faces between the void and others.
+std::vector<OpenFace> open_faces(const Mesh& body) {
+  std::vector<OpenFace> all;
+  for (const auto& q : body.quads) all.push_back({q, static_cast<int>(all.size())});
+  for (const auto& [a, b, c] : body.triangles) all.push_back({{a, b, c, -1}, static_cast<int>(all.size())});
+  int cell = -1;
+  for (const auto& v : body.hexahedra) {
+    for (const auto& f : std::initializer_list<std::array<int, 4>>{
+             {0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}})
+      all.push_back({{v[f[0]], v[f[1]], v[f[2]], v[f[3]]}, cell});
+    --cell;
+  }
+  for (const auto& v : body.prisms) {
+    for (const auto& f : std::initializer_list<std::array<int, 4>>{{0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}})
+      all.push_back({{v[f[0]], v[f[1]], v[f[2]], v[f[3]]}, cell});
+    all.push_back({{v[0], v[1], v[2], -1}, cell});
+    all.push_back({{v[3], v[5], v[4], -1}, cell});
+    --cell;
+  }
+  std::vector<std::pair<std::array<int, 4>, int>> keys;
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    std::array<int, 4> key = all[i].corners;
+    std::ranges::sort(key);
+    keys.emplace_back(key, i);
+  }
+  std::ranges::sort(keys);
+  std::vector<int> open;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (i + 1 < keys.size() && keys[i].first == keys[i + 1].first)
+      ++i;
+    else
+      open.push_back(keys[i].second);
+  std::ranges::sort(open);
+  std::vector<OpenFace> faces;
+  for (const int i : open) faces.push_back(all[i]);
+  std::ranges::stable_sort(faces, {}, [](const OpenFace& f) { return -n_of(f); });
+  return faces;
+}
+
+/// Removes cells, hexahedra first.
+void drop_cells(Mesh& body, const std::vector<int>& cells) {
+  std::vector<char> dropped(body.hexahedra.size() + body.prisms.size(), 0);
+  for (const int c : cells) dropped[c] = 1;
+  const std::size_t n = body.hexahedra.size();
+  const auto keep = [&](auto& list, std::size_t first) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!dropped[first + i]) list[kept++] = list[i];
+    list.resize(kept);
+  };
+  keep(body.hex_volume, 0), keep(body.hexahedra, 0);
+  keep(body.prism_volume, n), keep(body.prisms, n);
+}
+
+/// Fills a void, and adds the cells to a body.
+class Filler {
+ public:
+  explicit Filler(Mesh& body) : body_(body) {}
+
+  std::vector<int> fill() {
+    for (int round = 0;; ++round) {
+      check_cancelled();
+      faces_ = open_faces(body_);
+      if (faces_.empty()) return {};
+      const VoidBoundary boundary = boundary_of_void();
+      const Filling filling = fill_void(boundary);
+      std::vector<int> lost = filling.lost;
+      if (lost.size() == faces_.size()) lost = crossing_faces(boundary);
+      std::vector<int> cells;
+      if (!filling.lost.empty())
+        cells = cells_at(lost);
+      else if (round < kPoorRounds)
+        cells = cells_beside_poor(filling);
+      if (cells.empty() && filling.lost.empty()) {
+        add_cells(filling);
+        return {};
+      }
+      if (cells.empty()) return skin_at(filling.lost);
+      drop_cells(body_, cells);
+    }
+  }
+
+ private:
+  VoidBoundary boundary_of_void() {
+    VoidBoundary boundary;
+    of_body_.clear();
+    std::map<int, int> place;
+    for (const OpenFace& face : faces_) {
+      std::array<int, 4> v = face.corners;
+      for (int k = 0; k < n_of(face); ++k) {
+        const auto [at, is_new] = place.try_emplace(v[k], static_cast<int>(of_body_.size()));
+        if (is_new) of_body_.push_back(v[k]), boundary.points.push_back(body_.points[v[k]]);
+        v[k] = at->second;
+      }
+      if (n_of(face) == 4)
+        boundary.quads.push_back(v);
+      else
+        boundary.triangles.push_back({v[0], v[1], v[2]});
+    }
+    const auto add_holes = [&](const auto& cells) {
+      for (const auto& cell : cells) {
+        Vec3 sum;
+        for (const int v : cell) sum = sum + (1.0 / static_cast<double>(cell.size())) * body_.points[v];
+        boundary.holes.push_back(sum);
+      }
+    };
+    add_holes(body_.hexahedra), add_holes(body_.prisms);
+    return boundary;
+  }
+
+  /// Returns the faces that cross others; all, if none is found.
+  std::vector<int> crossing_faces(const VoidBoundary& boundary) const {
+    std::vector<std::array<int, 3>> triangles;
+    std::vector<int> face_of, found;
+    for (const auto& [a, b, c, d] : boundary.quads) {
+      triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}, {a, b, d}, {b, c, d}});
+      face_of.insert(face_of.end(), 4, static_cast<int>(face_of.size()) / 4);
+    }
+    for (const auto& t : boundary.triangles) {
+      triangles.push_back(t);
+      face_of.push_back(static_cast<int>(boundary.quads.size() + (triangles.size() - 1)) -
+                        4 * static_cast<int>(boundary.quads.size()));
+    }
+    const auto same = [&](int i, int j) { return face_of[i] == face_of[j]; };
+    for (const Crossing& crossing : find_crossings(boundary.points, triangles, same))
+      found.insert(found.end(), {face_of[crossing.first], face_of[crossing.second]});
+    if (found.empty())
+      for (std::size_t i = 0; i < faces_.size(); ++i) found.push_back(static_cast<int>(i));
+    return found;
+  }
+
+  /// Returns the cells with one of these faces, or else those that share a vertex with one.
+  std::vector<int> cells_at(const std::vector<int>& faces) const {
+    std::vector<int> owners;
+    std::vector<char> at(body_.points.size(), 0);
+    for (const int f : faces) {
+      if (faces_[f].owner < 0) owners.push_back(-1 - faces_[f].owner);
+      for (int k = 0; k < n_of(faces_[f]); ++k) at[faces_[f].corners[k]] = 1;
+    }
+    return owners.empty() ? cells_with(at, 1) : owners;
+  }
+
+  /// Returns the cells with at least `least` marked vertices.
+  std::vector<int> cells_with(const std::vector<char>& marked, int least) const {
+    std::vector<int> cells;
+    int i = 0;
+    const auto add = [&](const auto& list) {
+      for (const auto& cell : list) {
+        if (std::ranges::count_if(cell, [&](int v) { return marked[v]; }) >= least) cells.push_back(i);
+        ++i;
+      }
+    };
+    add(body_.hexahedra), add(body_.prisms);
+    return cells;
+  }
+
+  /// Returns the cells that share an edge with a poor one.
+  std::vector<int> cells_beside_poor(const Filling& filling) const {
+    std::vector<int> beside;
+    for (const Cell& cell : filling.cells) {
+      std::array<Vec3, 5> corners;
+      for (int k = 0; k < n_corners(cell); ++k) corners[k] = filling.points[cell[k]];
+      if (quality_of(corners, cell[4] >= 0) >= kPoorQuality) continue;
+      std::vector<char> marked(body_.points.size(), 0);
+      for (int k = 0; k < n_corners(cell); ++k)
+        if (cell[k] < static_cast<int>(of_body_.size())) marked[of_body_[cell[k]]] = 1;
+      const std::vector<int> more = cells_with(marked, 2);
+      beside.insert(beside.end(), more.begin(), more.end());
+    }
+    return beside;
+  }
+
+  std::vector<int> skin_at(const std::vector<int>& faces) const {
+    std::vector<int> skin;
+    for (const int f : faces)
+      if (faces_[f].owner >= 0) skin.push_back(faces_[f].owner);
+    return skin;
+  }
+
+  void add_cells(const Filling& filling) {
+    for (std::size_t i = of_body_.size(); i < filling.points.size(); ++i) {
+      of_body_.push_back(static_cast<int>(body_.points.size()));
+      body_.points.push_back(filling.points[i]);
+    }
+    for (Cell cell : filling.cells) {
+      for (int k = 0; k < n_corners(cell); ++k) cell[k] = of_body_[cell[k]];
+      if (cell[4] < 0)
+        body_.tetrahedra.push_back({cell[0], cell[1], cell[2], cell[3]});
+      else
+        body_.pyramids.push_back(cell);
+    }
+    body_.tet_volume.resize(body_.tetrahedra.size(), 0);
+    body_.pyramid_volume.resize(body_.pyramids.size(), 0);
+  }
+
+  Mesh& body_;
+  std::vector<OpenFace> faces_;  ///< of the void, in the order of VoidBoundary
+  std::vector<int> of_body_;     ///< point of the body for each point of the void
+};
+
+}  // namespace
+
+std::vector<int> fill_around(Mesh& body) { return Filler(body).fill(); }
+
+}  // namespace delquad

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "features/volume/cell_mesh.h"
+
+namespace delquad {
+
+namespace {
+
+/// A change must raise the least quality by more than this, so that changes end.
+constexpr double kGain = 1e-3;
+/// A split adds cells, so it must gain more.
+constexpr double kSplitGain = 0.02;
+
+double mean_edge(const CellMesh& mesh, int v) {
+  double sum = 0;
+  int n = 0;
+  for (const int c : mesh.at(v))
+    for (int k = 0; k < n_corners(mesh.cells()[c]); ++k)
+      if (const int w = mesh.cells()[c][k]; w != v) sum += norm(mesh.points()[w] - mesh.points()[v]), ++n;
+  return n > 0 ? sum / n : 0;
+}
+
+/// Returns the gradients of the qualities of the worst cells at a vertex, by differences over a length.
+std::vector<Vec3> gradients(const CellMesh& mesh, int v, double length) {
+  constexpr double kBand = 0.05;
+  constexpr std::size_t kMost = 8;
+  std::vector<std::pair<double, int>> worst;
+  const double least = mesh.least(mesh.at(v));
+  for (const int c : mesh.at(v))
+    if (mesh.quality(c) < least + kBand) worst.emplace_back(mesh.quality(c), c);
+  std::ranges::sort(worst);
+  if (worst.size() > kMost) worst.resize(kMost);
+  std::vector<Vec3> all;
+  for (const auto& [quality, c] : worst) {
+    const auto slope = [&, c = c, q = quality](const Vec3& step) {
+      return (mesh.quality_with(mesh.cells()[c], v, mesh.points()[v] + step) - q) / length;
+    };
+    all.push_back({slope({length, 0, 0}), slope({0, length, 0}), slope({0, 0, length})});
+  }
+  return all;
+}
+
+/// Returns the shortest vector of the convex hull of vectors, by the method of Frank and Wolfe.
+Vec3 shortest(const std::vector<Vec3>& vectors) {
+  constexpr int kSteps = 30;
+  Vec3 at = vectors[0];
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 to = *std::ranges::min_element(vectors, {}, [&](const Vec3& g) { return dot(g, at); });
+    const Vec3 way = at - to;
+    const double length2 = dot(way, way), down = dot(at, way);
+    if (!(down > 1e-12 * length2)) break;
+    at = at - std::min(1.0, down / length2) * way;
+  }
+  return at;
+}
+
+double least_with(const CellMesh& mesh, int v, const Vec3& x, double enough) {
+  double least = 1;
+  for (const int c : mesh.at(v)) {
+    least = std::min(least, mesh.quality_with(mesh.cells()[c], v, x));
+    if (least <= enough) break;
+  }
+  return least;
+}
+
+/// Replaces the tetrahedra around an edge by tetrahedra without it, if that raises their least quality.
+bool remove_edge(CellMesh& mesh, int a, int b) {
+  constexpr int kMost = 8;
+  bool is_open = false;
+  const std::vector<int> ring = mesh.ring(a, b, is_open);
+  const int n = static_cast<int>(ring.size());
+  if (is_open || n < 3 || n > kMost) return false;
+  const auto pair_of = [&](int i, int j, int k) {
+    return std::array<Cell, 2>{Cell{ring[i], ring[j], ring[k], b, -1},
+                               Cell{ring[i], ring[k], ring[j], a, -1}};
+  };
+  // The best triangulation of the ring's part from i to j, by dynamic programming.
+  double best[kMost][kMost];
+  int middle[kMost][kMost];
+  for (int length = 1; length < n; ++length)
+    for (int i = 0; i + length < n; ++i) {
+      const int j = i + length;
+      best[i][j] = length == 1 ? 1 : -2;
+      for (int k = i + 1; k < j; ++k) {
+        const auto pair = pair_of(i, k, j);
+        const double value =
+            std::min({best[i][k], best[k][j], mesh.quality_with(pair[0]), mesh.quality_with(pair[1])});
+        if (value > best[i][j]) best[i][j] = value, middle[i][j] = k;
+      }
+    }
+  const std::vector<int> old = mesh.cells_with({a, b});
+  if (!(best[0][n - 1] > mesh.least(old) + kGain)) return false;
+  std::vector<Cell> by;
+  std::vector<std::pair<int, int>> parts = {{0, n - 1}};
+  while (!parts.empty()) {
+    const auto [i, j] = parts.back();
+    parts.pop_back();
+    if (j - i < 2) continue;
+    const int k = middle[i][j];
+    for (const Cell& cell : pair_of(i, k, j)) by.push_back(cell);
+    parts.insert(parts.end(), {{i, k}, {k, j}});
+  }
+  return mesh.replace(old, by, kGain);
+}
+
+/// Replaces the two tetrahedra at a face of a cell by three around the edge between their apices.
+bool remove_face(CellMesh& mesh, int c, int apex) {
+  const Cell cell = mesh.cells()[c];
+  std::array<int, 3> face;
+  for (int k = 0, n = 0; k < 4; ++k)
+    if (k != apex) face[n++] = cell[k];
+  if (apex % 2 == 0) std::swap(face[0], face[1]);  // counterclockwise seen from the apex
+  const std::vector<int> both = mesh.cells_with({face[0], face[1], face[2]});
+  if (both.size() != 2) return false;
+  const Cell& other = mesh.cells()[both[0] == c ? both[1] : both[0]];
+  if (other[4] >= 0) return false;
+  int far = -1;
+  for (int k = 0; k < 4; ++k)
+    if (std::ranges::find(face, other[k]) == face.end()) far = other[k];
+  std::vector<Cell> by;
+  for (int k = 0; k < 3; ++k) by.push_back({face[k], face[(k + 1) % 3], far, cell[apex], -1});
+  return mesh.replace(both, by, kGain);
+}
+
+/// Moves a free vertex onto another one, and removes the cells between.
+bool collapse(CellMesh& mesh, int u, int v) {
+  std::vector<Cell> by;
+  const std::vector<int> old = mesh.at(u);
+  for (const int c : old) {
+    Cell cell = mesh.cells()[c];
+    if (has_corner(cell, v)) {
+      if (cell[4] >= 0) return false;
+      continue;
+    }
+    std::ranges::replace(cell, u, v);
+    by.push_back(cell);
+  }
+  return mesh.replace(old, by, kGain);
+}
+
+/// Puts a vertex into an edge, if it can be moved so that the least quality rises.
+bool split(CellMesh& mesh, int a, int b) {
+  bool is_open = false;
+  const std::vector<int> ring = mesh.ring(a, b, is_open), old = mesh.cells_with({a, b});
+  if (ring.empty() || is_open) return false;
+  std::vector<Cell> cells;
+  for (const int c : old) cells.push_back(mesh.cells()[c]);
+  const double before = mesh.least(old);
+  const int m = mesh.add_point(0.5 * (mesh.points()[a] + mesh.points()[b]));
+  for (const int c : old) mesh.remove(c);
+  for (const Cell& cell : cells)
+    for (const int end : {a, b}) {
+      Cell part = cell;
+      std::ranges::replace(part, end, m);
+      mesh.add(part);
+    }
+  relocate(mesh, m);
+  if (mesh.least(mesh.at(m)) > before + kSplitGain) return true;
+  for (const int c : std::vector<int>(mesh.at(m))) mesh.remove(c);
+  for (const Cell& cell : cells) mesh.add(cell);
+  return false;
+}
+
+/// Tries all changes at a cell. Returns whether one was made.
+bool improve_cell(CellMesh& mesh, int c, double wanted) {
+  const Cell cell = mesh.cells()[c];
+  const int n = n_corners(cell);
+  bool moved = false;
+  for (int k = 0; k < n; ++k)
+    if (mesh.is_free(cell[k])) moved |= relocate(mesh, cell[k]) > kGain;
+  if (mesh.quality(c) >= wanted) return true;
+  if (n == 4) {
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        if (remove_edge(mesh, cell[i], cell[j])) return true;
+    for (int k = 0; k < 4; ++k)
+      if (remove_face(mesh, c, k)) return true;
+  }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (i != j && mesh.is_free(cell[i]) && collapse(mesh, cell[i], cell[j])) return true;
+  if (n == 4)
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        if (split(mesh, cell[i], cell[j])) return true;
+  return moved;
+}
+
+}  // namespace
+
+double relocate(CellMesh& mesh, int v) {
+  constexpr int kMoves = 8, kHalvings = 8;
+  constexpr double kFirst = 0.25, kDifference = 1e-6;
+  const double before = mesh.least(mesh.at(v)), length = mean_edge(mesh, v);
+  for (int i = 0; i < kMoves && length > 0; ++i) {
+    const Vec3 way = shortest(gradients(mesh, v, kDifference * length));
+    const double steepness = norm(way), least = mesh.least(mesh.at(v));
+    if (!(steepness > 0)) break;
+    double step = kFirst * length;
+    int halvings = 0;
+    while (halvings < kHalvings) {
+      const Vec3 x = mesh.points()[v] + (step / steepness) * way;
+      if (least_with(mesh, v, x, least + kGain / 4) > least + kGain / 4) {
+        mesh.move(v, x);
+        break;
+      }
+      step /= 2;
+      ++halvings;
+    }
+    if (halvings == kHalvings) break;
+  }
+  return mesh.least(mesh.at(v)) - before;
+}
+
+void improve(CellMesh& mesh, double wanted) {
+  constexpr int kRounds = 10;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::pair<double, int>> bad;
+    for (int c = 0; c < static_cast<int>(mesh.cells().size()); ++c)
+      if (mesh.is_alive(c) && mesh.quality(c) < wanted) bad.emplace_back(mesh.quality(c), c);
+    std::ranges::sort(bad);
+    bool changed = false;
+    for (const auto& [quality, c] : bad)
+      if (mesh.is_alive(c) && mesh.quality(c) < wanted) changed |= improve_cell(mesh, c, wanted);
+    if (!changed) break;
+  }
+}
+
+}  // namespace delquad
