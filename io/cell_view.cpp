@@ -80,13 +80,13 @@ std::vector<Entity> entities_of(const std::vector<NamedPoint>& points) {
   return entities;
 }
 
-int dimension_of(const Mesh& mesh) { return mesh.hexahedra.empty() ? 2 : 3; }
+int dimension_of(const Mesh& mesh) { return is_solid(mesh) ? 3 : 2; }
 
 std::size_t n_cells(const Mesh& mesh, int dim) {
   return dim == 0   ? mesh.points.size()
          : dim == 1 ? mesh.lines.size()
          : dim == 2 ? mesh.triangles.size() + mesh.quads.size()
-                    : mesh.hexahedra.size();
+                    : n_solids(mesh);
 }
 
 std::vector<CellBlock> cell_blocks(const Mesh& mesh, std::vector<int> places) {
@@ -98,8 +98,12 @@ std::vector<CellBlock> cell_blocks(const Mesh& mesh, std::vector<int> places) {
        [&mesh](std::size_t i) { return nodes_ends_first(mesh, i); }},
       {CellShape::kTriangle, 2, 3, 0, &mesh.triangle_region, &mesh.regions, corners_in(mesh.triangles)},
       {CellShape::kQuad, 2, of_quad, mesh.triangles.size(), &mesh.quad_region, &mesh.regions,
-       [&mesh, places = std::move(places)](std::size_t i) { return nodes_of_quad(mesh, i, places); }},
-      {CellShape::kHexahedron, 3, 8, 0, &mesh.hex_volume, &mesh.volumes, corners_in(mesh.hexahedra)}};
+       [&mesh, places = std::move(places)](std::size_t i) { return nodes_of_quad(mesh, i, places); }}};
+  std::size_t first = 0;
+  for_each_shape(mesh, [&](const SolidShape& shape, const auto& cells, const auto& volumes) {
+    blocks.push_back({shape.shape, 3, shape.n_corners, first, &volumes, &mesh.volumes, corners_in(cells)});
+    first += cells.size();
+  });
   std::erase_if(blocks, [](const CellBlock& cells) { return cells.size() == 0; });
   return blocks;
 }
@@ -112,84 +116,68 @@ CellSide cell_side(const Mesh& mesh, const HalfEdge& edge) {
   return {edge.element, quad < 0 ? place(mesh.triangles[edge.element]) : place(mesh.quads[quad])};
 }
 
-std::array<int, 4> outward_side(std::span<const int> hexahedron, int side) {
-  constexpr int kSides[kHexSides][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                        {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  std::array<int, 4> nodes;
-  for (int k = 0; k < 4; ++k) nodes[k] = hexahedron[kSides[side][k]];
-  return nodes;
-}
-
-std::vector<HexSide> sorted_sides(const Mesh& mesh) {
-  std::vector<HexSide> sides;
-  sides.reserve(kHexSides * mesh.hexahedra.size());
-  for (std::size_t h = 0; h < mesh.hexahedra.size(); ++h)
-    for (int s = 0; s < kHexSides; ++s) {
-      HexSide side{outward_side(mesh.hexahedra[h], s), {static_cast<int>(h), s}};
-      std::ranges::sort(side.nodes);
-      sides.push_back(side);
-    }
-  std::ranges::stable_sort(sides, {}, &HexSide::nodes);
-  return sides;
-}
-
 void complete_faces(Mesh& mesh, ReadNotes* notes) {
-  if (mesh.hexahedra.empty()) return;
+  if (!is_solid(mesh)) return;
   if (mesh.order > 1) mesh = straightened(std::move(mesh));
-  const std::vector<HexSide> sides = sorted_sides(mesh);
-  const auto outward = [&](const HexSide& side) {
-    return outward_side(mesh.hexahedra[side.side.element], side.side.side);
+  const std::vector<SolidSide> sides = sorted_sides(mesh);
+  const auto outward = [&](const SolidSide& side) {
+    return solid_at(mesh, static_cast<std::size_t>(side.side.element)).side(side.side.side);
   };
-  std::vector<char> has_quad(sides.size(), 0);
+  std::vector<char> has_face(sides.size(), 0);
   const std::size_t n_faces = n_cells(mesh, 2);
-  std::size_t kept = 0;
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-    std::array<int, 4> quad = mesh.quads[q], nodes = quad;
-    std::ranges::sort(nodes);
-    const auto at = std::ranges::equal_range(sides, nodes, {}, &HexSide::nodes);
-    if (at.empty()) continue;
-    has_quad[at.begin() - sides.begin()] = 1;
-    const std::array<int, 4> side = outward(at.front());
-    const auto first = std::ranges::find(quad, side[0]) - quad.begin();
-    if (at.size() == 1 && quad[(first + 1) % 4] != side[1]) std::swap(quad[1], quad[3]);
-    mesh.quads[kept] = quad;
-    mesh.quad_region[kept++] = mesh.quad_region[q];
-  }
-  mesh.quads.resize(kept);
-  mesh.quad_region.resize(kept);
-  mesh.triangles.clear();
-  mesh.triangle_region.clear();
+  const auto keep = [&](auto& faces, std::vector<int>& regions) {
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const auto at = std::ranges::equal_range(sides, side_key(faces[f]), {}, &SolidSide::nodes);
+      if (at.empty()) continue;
+      has_face[at.begin() - sides.begin()] = 1;
+      std::array<int, 4> nodes{-1, -1, -1, -1};
+      std::ranges::copy(faces[f], nodes.begin());
+      faces[kept] = faces[f];
+      if (at.size() == 1 && !same_turn(outward(at.front()), nodes))
+        std::reverse(faces[kept].begin() + 1, faces[kept].end());
+      regions[kept++] = regions[f];
+    }
+    faces.resize(kept);
+    regions.resize(kept);
+  };
+  keep(mesh.triangles, mesh.triangle_region);
+  keep(mesh.quads, mesh.quad_region);
+  const std::size_t kept = n_cells(mesh, 2);
   if (notes != nullptr && kept < n_faces)
     notes->push_back(
-        fmt::format("triangles and quads that are no sides of hexahedra are left out: {}", n_faces - kept));
+        fmt::format("triangles and quads that are no sides of cells are left out: {}", n_faces - kept));
   int tag = 0;
   for (const Entity& region : mesh.regions) tag = std::max(tag, region.tag);
   const int region = static_cast<int>(mesh.regions.size());
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     while (end < sides.size() && sides[end].nodes == sides[i].nodes) ++end;
-    const std::array<int, 4> side = outward(sides[i]);
+    const auto [a, b, c, d] = outward(sides[i]);
     if (end - i > 2)
-      refuse("{} hexahedra share the side at {}: expected two at most", end - i,
-             show_point(mesh.points[side[0]]));
-    if (end - i == 2 || has_quad[i]) continue;
-    mesh.quads.push_back(side);
-    mesh.quad_region.push_back(region);
+      refuse("{} cells share the side at {}: expected two at most", end - i, show_point(mesh.points[a]));
+    if (end - i == 2 || has_face[i]) continue;
+    if (d < 0) {
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangle_region.push_back(region);
+    } else {
+      mesh.quads.push_back({a, b, c, d});
+      mesh.quad_region.push_back(region);
+    }
   }
-  if (mesh.quads.size() > kept) mesh.regions.push_back({tag + 1, {}});
+  if (n_cells(mesh, 2) > kept) mesh.regions.push_back({tag + 1, {}});
   drop_unused_points(mesh);
 }
 
-CellSides::CellSides(const Mesh& mesh) : mesh_(mesh) {
-  if (mesh.hexahedra.empty()) of_faces_ = sorted_half_edges(mesh);
-  of_hexahedra_ = sorted_sides(mesh);
+CellSides::CellSides(const Mesh& mesh) : mesh_(mesh), of_cells_(sorted_sides(mesh)) {
+  if (!is_solid(mesh)) of_faces_ = sorted_half_edges(mesh);
 }
 
 std::vector<CellSide> CellSides::at(int item) const {
   std::vector<CellSide> sides;
-  if (!mesh_.hexahedra.empty()) {
-    std::array<int, 4> nodes = mesh_.quads[item];
-    std::ranges::sort(nodes);
-    for (const HexSide& side : std::ranges::equal_range(of_hexahedra_, nodes, {}, &HexSide::nodes))
+  if (is_solid(mesh_)) {
+    const int quad = item - static_cast<int>(mesh_.triangles.size());
+    const auto key = quad < 0 ? side_key(mesh_.triangles[item]) : side_key(mesh_.quads[quad]);
+    for (const SolidSide& side : std::ranges::equal_range(of_cells_, key, {}, &SolidSide::nodes))
       sides.push_back(side.side);
     return sides;
   }
@@ -200,12 +188,16 @@ std::vector<CellSide> CellSides::at(int item) const {
 
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules) {
   std::vector<MeshGroup> groups;
-  add_groups(3, mesh.volumes, mesh.hex_volume, groups);
+  std::vector<int> of_cells;
+  for_each_shape(mesh, [&](const SolidShape&, const auto&, const auto& volumes) {
+    of_cells.insert(of_cells.end(), volumes.begin(), volumes.end());
+  });
+  add_groups(3, mesh.volumes, of_cells, groups);
   std::vector<int> regions = mesh.triangle_region;
   regions.insert(regions.end(), mesh.quad_region.begin(), mesh.quad_region.end());
   add_groups(2, mesh.regions, regions, groups);
   std::vector<int> curves = mesh.line_curve;
-  if (mesh.hexahedra.empty()) {
+  if (!is_solid(mesh)) {
     const CellSides sides(mesh);
     for (std::size_t l = 0; l < curves.size(); ++l)
       if (mesh.curves[curves[l]].names.empty() && sides.at(static_cast<int>(l)).size() > 1) curves[l] = -1;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/half_edges.h"
 #include "io/entity_names.h"
 
@@ -19,8 +20,6 @@
 namespace delquad {
 
 class TextWriter;
-
-enum class CellShape { kPoint, kLine, kTriangle, kQuad, kHexahedron };
 
 /// All elements of one shape. They live as long as their mesh.
 struct CellBlock {
@@ -36,13 +35,13 @@ struct CellBlock {
   const Entity& entity(std::size_t i) const { return (*entities)[(*entity_of)[i]]; }
 };
 
-/// Returns blocks of lines, triangles, quads and hexahedra, without empty ones. `places` orders the nodes of
+/// Returns blocks of all shapes in their order, without empty ones. `places` orders the nodes of
 /// quads, see nodes_of_quad(). By default it is the order of Gmsh, without the middle node if that is a
 /// corner, as in write_serendipity().
 std::vector<CellBlock> cell_blocks(const Mesh& mesh, std::vector<int> places = {});
-/// Returns 3 with hexahedra, else 2.
+/// Returns 3 with cells of volumes, else 2.
 int dimension_of(const Mesh& mesh);
-/// Returns the number of points (0), of lines (1), of triangles and quads (2), or of hexahedra (3).
+/// Returns the number of points (0), of lines (1), of triangles and quads (2), or of cells (3).
 std::size_t n_cells(const Mesh& mesh, int dim);
 /// Returns whether the nodes in the middle of quads of order 2 are left out.
 bool has_eight_nodes(const Mesh& mesh);
@@ -68,41 +67,27 @@ const Code& code_of(const CellBlock& cells, const CellCode<Code> (&codes)[N]) {
       ->code;
 }
 
-/// A side of an element, from 0. Side k of a triangle or quad lies between its corners k and k + 1. The sides
-/// of a hexahedron are S1 to S6 of Abaqus's C3D8.
-struct CellSide {
-  int element, side;
-};
 /// Returns the element and side of a half-edge.
 CellSide cell_side(const Mesh& mesh, const HalfEdge& edge);
 
-inline constexpr int kHexSides = 6;
-/// Returns the nodes of a side of a hexahedron, counterclockwise seen from outside.
-std::array<int, 4> outward_side(std::span<const int> hexahedron, int side);
-struct HexSide {
-  std::array<int, 4> nodes;  ///< ascending
-  CellSide side;
-};
-/// Returns the sides of all hexahedra, by their nodes.
-std::vector<HexSide> sorted_sides(const Mesh& mesh);
-/// Completes the faces of hexahedra that were read; does nothing to other meshes. Quads on the boundary look
+/// Completes the faces of cells that were read; does nothing to other meshes. Faces on the boundary look
 /// outwards, and missing ones are added in a region without a name. Triangles and quads that are no sides of
-/// hexahedra go, which a note tells. All elements become straight. Throws InputError, with the place, for a
-/// side of three hexahedra.
+/// cells go, which a note tells. All elements become straight. Throws InputError, with the place, for a side
+/// of three cells.
 void complete_faces(Mesh& mesh, ReadNotes* notes);
 
-/// The sides of triangles and quads, or of hexahedra if there are any.
+/// The sides of triangles and quads, or of cells if there are any.
 class CellSides {
  public:
   explicit CellSides(const Mesh& mesh);
-  /// Returns the sides on a line, or on a quad beside hexahedra: one on the boundary, else two, in the order
-  /// of the elements.
+  /// Returns the sides on a line, or beside cells on a face, triangles first. There is one on the boundary,
+  /// else two, in the order of the elements.
   std::vector<CellSide> at(int item) const;
 
  private:
   const Mesh& mesh_;
   std::vector<HalfEdge> of_faces_;
-  std::vector<HexSide> of_hexahedra_;
+  std::vector<SolidSide> of_cells_;
 };
 
 /// Writes a line with the coordinates of each point, then a line for each triangle and quad: the number of
@@ -113,7 +98,7 @@ std::vector<Entity> entities_of(const std::vector<NamedPoint>& points);
 
 /// Points, lines or elements of one name, for formats that need one for everything.
 struct MeshGroup {
-  int dim;                  ///< 0: points, 1: lines, 2: triangles and quads, 3: hexahedra
+  int dim;                  ///< 0: points, 1: lines, 2: triangles and quads, 3: cells
   int number;               ///< from 1 on, in each dimension
   std::string name, label;  ///< the label is the name as the format can hold it
   /// Indices of points, of lines, or of elements, triangles first.
@@ -121,7 +106,7 @@ struct MeshGroup {
 };
 
 /// Returns groups of all named points, of lines on the boundary and named lines inside (all lines beside
-/// hexahedra), and of all elements. Groups of the highest dimension come first. Entities have the names of
+/// cells), and of all elements. Groups of the highest dimension come first. Entities have the names of
 /// group_names().
 std::vector<MeshGroup> mesh_groups(const Mesh& mesh, const UniqueLabels::Rules& rules);
 /// Returns the nodes of a group, ascending, each once.

@@ -191,12 +191,12 @@ int extrude_command(const ExtrudeArguments& arguments) {
     notes.push_back(fmt::format("{} loses these keywords of {}: {}", arguments.output.string(),
                                 arguments.mesh.string(), others));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
-  const HexMeasures measures = measure(hexahedra);
+  const CellMeasures measures = measure(hexahedra);
   write_mesh(arguments.output, hexahedra, arguments.file);
   if (!arguments.json.empty())
-    write_text_file(arguments.json, hexahedra_record(arguments.mesh.string(), hexahedra, measures));
+    write_text_file(arguments.json, cells_record(arguments.mesh.string(), hexahedra, measures));
   fmt::print("{}\n", arguments.output.string());
-  print_hexahedra(hexahedra, measures);
+  print_cells(hexahedra, measures);
   return kDone;
 }
 

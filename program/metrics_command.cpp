@@ -8,11 +8,13 @@
 
 #include "delquad/error.h"
 #include "experiments/sweep/record.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/outline.h"
 #include "geometry/mesh/weld.h"
 #include "io/cases/read_problem.h"
 #include "io/mesh_io.h"
+#include "metrics/cells.h"
 #include "metrics/flow_links.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
@@ -90,15 +92,16 @@ void print_solver(const MeshMetrics& metrics, const std::string& solver) {
     fmt::print(stderr, "warning: no '{}': {}\n", solver, at->second);
 }
 
-/// Measures of hexahedra, for which there are no criteria, sizes and solvers here.
-int measure_hexahedra(const MetricsArguments& arguments, const Mesh& mesh) {
+/// Measures of cells, for which there are no criteria, sizes and solvers here.
+int measure_cells(const MetricsArguments& arguments, const Mesh& mesh) {
   if (arguments.size || arguments.links || !arguments.criteria.empty() || !arguments.solvers.empty())
     require_straight(mesh, arguments.mesh.string() + ": --size, --criteria, --links or --solve");
-  const HexMeasures measures = measure(mesh);
+  const CellMeasures measures = measure(mesh);
+  const std::vector<std::string> defects = defects_of_cells(mesh);
   if (!arguments.json.empty())
-    write_text_file(arguments.json, hexahedra_record(arguments.mesh.string(), mesh, measures));
+    write_text_file(arguments.json, cells_record(arguments.mesh.string(), mesh, measures, defects));
   fmt::print("{}\n", arguments.mesh.string());
-  print_hexahedra(mesh, measures);
+  print_cells(mesh, measures, defects);
   return kDone;
 }
 
@@ -114,7 +117,7 @@ int metrics_command(const MetricsArguments& arguments) {
   const Mesh mesh = read_mesh(arguments.mesh, &notes);
   if (std::string torn = describe_unjoined(mesh); !torn.empty()) notes.push_back(std::move(torn));
   for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
-  if (!mesh.hexahedra.empty()) return measure_hexahedra(arguments, mesh);
+  if (is_solid(mesh)) return measure_cells(arguments, mesh);
   if (mesh.triangles.empty() && mesh.quads.empty())
     throw InputError(arguments.mesh.string() + ": holds no triangles and no quads: expected some to measure");
   std::shared_ptr<const SizeField> size;

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "experiments/console/progress.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "metrics/anisotropic_measures.h"
 #include "metrics/judgement/criteria.h"
 #include "metrics/judgement/soundness.h"
@@ -102,8 +103,10 @@ void print_measures(const MeshMetrics& metrics) {
 }
 
 std::string show_counts(const Mesh& mesh) {
-  const std::string solids =
-      mesh.hexahedra.empty() ? "" : fmt::format("{} hexahedra, ", mesh.hexahedra.size());
+  std::string solids;
+  for_each_shape(mesh, [&](const SolidShape& shape, const auto& cells, const auto&) {
+    if (!cells.empty()) solids += fmt::format("{} {}, ", cells.size(), shape.plural);
+  });
   return fmt::format("{}{} quads, {} triangles, {} {}", solids, mesh.quads.size(), mesh.triangles.size(),
                      mesh.points.size(), mesh.order > 1 ? "nodes" : "vertices");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "delquad/hexahedra.h"
 #include "delquad/mesher.h"
@@ -24,7 +25,7 @@ void print_summary(const MeshMetrics& metrics);
 /// Prints every measure with -v, otherwise the summary.
 void print_measures(const MeshMetrics& metrics);
 
-/// Returns "9 quads, 0 triangles, 16 vertices", hexahedra first if there are any; "nodes" if elements are
+/// Returns "9 quads, 0 triangles, 16 vertices", cells first if there are any; "nodes" if elements are
 /// curved and have more than corners.
 std::string show_counts(const Mesh& mesh);
 
@@ -37,10 +38,13 @@ void print_criteria(const CriteriaReport& report, const Mesh& mesh);
 /// Prints the time of each step in seconds, added up over threads.
 void print_seconds(const StepTimes& times);
 
-/// Prints numbers, least and mean scaled Jacobian, and volume of hexahedra.
-void print_hexahedra(const Mesh& mesh, const HexMeasures& measures);
+/// Prints numbers, shares of the volume, and least and mean scaled Jacobian of cells by shape, and the
+/// defects.
+void print_cells(const Mesh& mesh, const CellMeasures& measures,
+                 const std::vector<std::string>& defects = {});
 /// Returns the same with the parts of the mesh, in JSON.
-std::string hexahedra_record(const std::string& source, const Mesh& mesh, const HexMeasures& measures);
+std::string cells_record(const std::string& source, const Mesh& mesh, const CellMeasures& measures,
+                         const std::vector<std::string>& defects = {});
 
 /// Prints how the mesh fits its surface, in one line.
 void print_surface_summary(const SurfaceReport& report);

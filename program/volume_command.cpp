@@ -42,8 +42,12 @@ int volume_command(const VolumeArguments& arguments) {
   check_hex_format(arguments.output, arguments.msh);
   if (arguments.model.empty() == arguments.from.empty())
     throw InputError("expected a model, or --from with a file of its quads");
-  check_distinct({{"the model", arguments.model}, {"--from", arguments.from}, {"-o", arguments.output}});
+  check_distinct({{"the model", arguments.model},
+                  {"--from", arguments.from},
+                  {"-o", arguments.output},
+                  {"--json", arguments.json}});
   check_output(arguments.output);
+  if (!arguments.json.empty()) check_output(arguments.json);
   const std::string name = arguments.from.empty() ? arguments.model.string() : arguments.from.string();
   Progress progress;
   ReadNotes notes;
@@ -55,10 +59,12 @@ int volume_command(const VolumeArguments& arguments) {
   for (const std::string& lost : renamed_in_file(arguments.output, cells))
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + lost);
   for (const std::string& note : notes) progress.message("note: " + note);
+  const CellMeasures measures = measure(cells);
   write_mesh(arguments.output, cells, arguments.msh);
+  if (!arguments.json.empty()) write_text_file(arguments.json, cells_record(name, cells, measures));
   progress.finish();
-  fmt::print("{}: {} pyramids, {} tetrahedra, {} vertices in {:.2f} s\n", arguments.output.string(),
-             cells.pyramids.size(), cells.tetrahedra.size(), cells.points.size(), command.seconds());
+  fmt::print("{}: {} in {:.2f} s\n", arguments.output.string(), show_counts(cells), command.seconds());
+  print_cells(cells, measures);
   print_names(cells);
   return kDone;
 }
@@ -80,6 +86,7 @@ void add_volume(CLI::App& app, Commands& commands) {
                    "'pyramids-and-tets' (the default) keep the quads; 'tets' split each into two triangles")
       ->transform(CLI::CheckedTransformer(kinds).description("pyramids-and-tets or tets"));
   volume->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
+  volume->add_option("--json", arguments.json, "record to write");
   add_max_elements(*volume, arguments.max_elements, "refuse to make more cells than this");
   add_threads(*volume, arguments.threads);
 }

@@ -15,7 +15,7 @@
 #include "features/extrusion/section.h"
 #include "geometry/mesh/find_crossings.h"
 #include "io/entity_names.h"
-#include "metrics/hexahedra.h"
+#include "metrics/cells.h"
 
 namespace delquad {
 

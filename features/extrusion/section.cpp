@@ -9,8 +9,10 @@
 #include <span>
 #include <utility>
 
+#include "base/located.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
@@ -22,8 +24,8 @@ namespace delquad {
 namespace {
 
 void require_quads(const Mesh& mesh) {
-  if (!mesh.hexahedra.empty())
-    throw InputError("the mesh has hexahedra already: only meshes of quads are swept");
+  if (is_solid(mesh))
+    refuse("the mesh has {} already: only meshes of quads are swept", solid_at(mesh, 0).shape->plural);
   if (mesh.order > 1)
     throw InputError(
         fmt::format("the mesh has elements of order {}: only quads of order 1 are swept", mesh.order));

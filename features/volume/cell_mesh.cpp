@@ -2,6 +2,7 @@
 #include "features/volume/cell_mesh.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace delquad {
 
@@ -20,7 +21,7 @@ double quality_of_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const
   const double most = std::max({lu * lv * lw, lu * bc * db, lv * bc * cd, lw * cd * db});
   const double least = std::min({lu * lv * lw, lu * bc * db, lv * bc * cd, lw * cd * db});
   const double det = triple(u, v, w);
-  return most > 0 ? det / (det > 0 || least == 0 ? most : least) : 0;
+  return most > 0 ? std::numbers::sqrt2 * det / (det > 0 || least == 0 ? most : least) : 0;
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ double quality_of(const std::array<Vec3, 5>& p, bool is_pyramid) {
     const double base = triple(side[(k + 1) % 4], (-1.0) * side[k], up[(k + 1) % 4]);
     least = std::min({least, base, triple(up[k], up[(k + 1) % 4], up[(k + 2) % 4])});
   }
-  return least;
+  return std::numbers::sqrt2 * least;
 }
 
 double CellMesh::quality_with(const Cell& cell, int v, const Vec3& x) const {

@@ -21,8 +21,8 @@ inline bool has_corner(const Cell& cell, int v) {
   return cell[0] == v || cell[1] == v || cell[2] == v || cell[3] == v || cell[4] == v;
 }
 
-/// Returns the least determinant of unit vectors along three edges of a corner; at the apex of a pyramid, of
-/// each three neighboring edges. A regular cell has 1 / sqrt(2), an inverted one less than 0.
+/// Returns the scaled Jacobian as in metrics/cells.h. The apex of a pyramid counts, too, with each three
+/// neighboring edges.
 double quality_of(const std::array<Vec3, 5>& corners, bool is_pyramid);
 
 /// Tetrahedra and pyramids with their cells at each vertex.

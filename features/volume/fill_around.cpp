@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "base/cancel.h"
 #include "features/volume/fill_void.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/find_crossings.h"
 
 namespace delquad {
@@ -30,25 +32,17 @@ std::vector<OpenFace> open_faces(const Mesh& body) {
   std::vector<OpenFace> all;
   for (const auto& q : body.quads) all.push_back({q, static_cast<int>(all.size())});
   for (const auto& [a, b, c] : body.triangles) all.push_back({{a, b, c, -1}, static_cast<int>(all.size())});
-  int cell = -1;
-  for (const auto& v : body.hexahedra) {
-    for (const auto& f : std::initializer_list<std::array<int, 4>>{
-             {0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}})
-      all.push_back({{v[f[0]], v[f[1]], v[f[2]], v[f[3]]}, cell});
-    --cell;
-  }
-  for (const auto& v : body.prisms) {
-    for (const auto& f : std::initializer_list<std::array<int, 4>>{{0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}})
-      all.push_back({{v[f[0]], v[f[1]], v[f[2]], v[f[3]]}, cell});
-    all.push_back({{v[0], v[1], v[2], -1}, cell});
-    all.push_back({{v[3], v[5], v[4], -1}, cell});
-    --cell;
+  for (int i = 0; i < static_cast<int>(n_solids(body)); ++i) {
+    const Solid cell = solid_at(body, i);
+    for (int k = 0; k < static_cast<int>(cell.shape->sides.size()); ++k) {
+      std::array<int, 4> side = cell.side(k);
+      std::reverse(side.begin(), side.end() - (side[3] < 0));
+      all.push_back({side, -1 - i});
+    }
   }
   std::vector<std::pair<std::array<int, 4>, int>> keys;
   for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-    std::array<int, 4> key = all[i].corners;
-    std::ranges::sort(key);
-    keys.emplace_back(key, i);
+    keys.emplace_back(side_key(std::span(all[i].corners).first(n_of(all[i]))), i);
   }
   std::ranges::sort(keys);
   std::vector<int> open;
@@ -64,19 +58,22 @@ std::vector<OpenFace> open_faces(const Mesh& body) {
   return faces;
 }
 
+/// Puts all cells into volume 0.
+void number_volumes(Mesh& body) {
+  for_each_shape(body, [](const SolidShape&, const auto& cells, std::vector<int>& volume_of) {
+    volume_of.assign(cells.size(), 0);
+  });
+}
+
 /// Removes cells, hexahedra first.
 void drop_cells(Mesh& body, const std::vector<int>& cells) {
-  std::vector<char> dropped(body.hexahedra.size() + body.prisms.size(), 0);
+  std::vector<char> dropped(n_solids(body), 0);
   for (const int c : cells) dropped[c] = 1;
-  const std::size_t n = body.hexahedra.size();
-  const auto keep = [&](auto& list, std::size_t first) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < list.size(); ++i)
-      if (!dropped[first + i]) list[kept++] = list[i];
-    list.resize(kept);
-  };
-  keep(body.hex_volume, 0), keep(body.hexahedra, 0);
-  keep(body.prism_volume, n), keep(body.prisms, n);
+  std::size_t i = 0;
+  for_each_shape(body, [&](const SolidShape&, auto& list, auto&) {
+    std::erase_if(list, [&](const auto&) { return dropped[i++]; });
+  });
+  number_volumes(body);
 }
 
 /// Fills a void, and adds the cells to a body.
@@ -124,14 +121,12 @@ class Filler {
       else
         boundary.triangles.push_back({v[0], v[1], v[2]});
     }
-    const auto add_holes = [&](const auto& cells) {
-      for (const auto& cell : cells) {
-        Vec3 sum;
-        for (const int v : cell) sum = sum + (1.0 / static_cast<double>(cell.size())) * body_.points[v];
-        boundary.holes.push_back(sum);
-      }
-    };
-    add_holes(body_.hexahedra), add_holes(body_.prisms);
+    for (std::size_t i = 0; i < n_solids(body_); ++i) {
+      const std::span<const int> nodes = solid_at(body_, i).nodes;
+      Vec3 sum;
+      for (const int v : nodes) sum = sum + (1.0 / static_cast<double>(nodes.size())) * body_.points[v];
+      boundary.holes.push_back(sum);
+    }
     return boundary;
   }
 
@@ -170,14 +165,9 @@ class Filler {
   /// Returns the cells with at least `least` marked vertices.
   std::vector<int> cells_with(const std::vector<char>& marked, int least) const {
     std::vector<int> cells;
-    int i = 0;
-    const auto add = [&](const auto& list) {
-      for (const auto& cell : list) {
-        if (std::ranges::count_if(cell, [&](int v) { return marked[v]; }) >= least) cells.push_back(i);
-        ++i;
-      }
-    };
-    add(body_.hexahedra), add(body_.prisms);
+    for (std::size_t i = 0; i < n_solids(body_); ++i)
+      if (std::ranges::count_if(solid_at(body_, i).nodes, [&](int v) { return marked[v]; }) >= least)
+        cells.push_back(static_cast<int>(i));
     return cells;
   }
 
@@ -216,8 +206,6 @@ class Filler {
       else
         body_.pyramids.push_back(cell);
     }
-    body_.tet_volume.resize(body_.tetrahedra.size(), 0);
-    body_.pyramid_volume.resize(body_.pyramids.size(), 0);
   }
 
   Mesh& body_;
@@ -227,6 +215,11 @@ class Filler {
 
 }  // namespace
 
-std::vector<int> fill_around(Mesh& body) { return Filler(body).fill(); }
+std::vector<int> fill_around(Mesh& body) {
+  number_volumes(body);
+  const std::vector<int> lost = Filler(body).fill();
+  number_volumes(body);
+  return lost;
+}
 
 }  // namespace delquad

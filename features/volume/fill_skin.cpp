@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,8 +12,10 @@
 #include "delquad/hexahedra.h"
 #include "features/volume/fill_around.h"
 #include "features/volume/find_bodies.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/find_crossings.h"
+#include "metrics/cells.h"
 
 namespace delquad {
 
@@ -60,9 +63,9 @@ class SkinFiller {
   }
 
   Mesh fill() {
-    constexpr int kAttempts = 3;
+    constexpr int kAttempts = 4;
     const Mesh skin = result_;
-    for (int attempt = 1; !fill_bodies(attempt == kAttempts); ++attempt) result_ = skin, n_cells_ = 0;
+    for (int attempt = 1; !fill_bodies(attempt == kAttempts); ++attempt) result_ = skin;
     name_volumes();
     orient_faces();
     return std::move(result_);
@@ -124,15 +127,14 @@ class SkinFiller {
         to.push_back(cell);
         volume_of.push_back(body);
       }
-      n_cells_ += static_cast<long long>(from.size());
     };
     add(part.hexahedra, result_.hexahedra, result_.hex_volume);
     add(part.prisms, result_.prisms, result_.prism_volume);
     add(part.pyramids, result_.pyramids, result_.pyramid_volume);
     add(part.tetrahedra, result_.tetrahedra, result_.tet_volume);
-    if (n_cells_ > options_.max_elements)
-      refuse("{} cells are needed, and --max-elements allows {}: a larger size needs fewer", n_cells_,
-             options_.max_elements);
+    if (static_cast<long long>(n_solids(result_)) > options_.max_elements)
+      refuse("{} cells are needed, and --max-elements allows {}: a larger size needs fewer",
+             n_solids(result_), options_.max_elements);
   }
 
   [[noreturn]] void refuse_body(const Body& body, const std::vector<int>& lost) const {
@@ -177,7 +179,6 @@ class SkinFiller {
   VolumeOptions options_;
   Mesh result_;
   std::vector<Body> bodies_;
-  long long n_cells_ = 0;
   std::vector<Quad> split_;  ///< quads whose first diagonals split them into triangles
 };
 
@@ -185,7 +186,10 @@ class SkinFiller {
 
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {
   check_skin(skin, options.max_elements);
-  return SkinFiller(skin, options, notes).fill();
+  const Mesh mesh = SkinFiller(skin, options, notes).fill();
+  if (const std::vector<std::string> defects = defects_of_cells(mesh); !defects.empty())
+    refuse("the cells are not sound: {}", fmt::join(defects, "; "));
+  return mesh;
 }
 
 }  // namespace delquad

@@ -10,6 +10,7 @@
 #include "base/orientation.h"
 #include "base/sort_unique.h"
 #include "features/volume/tetrahedralise.h"
+#include "geometry/mesh/cell_shapes.h"
 
 namespace delquad {
 
@@ -19,9 +20,9 @@ using Quad = std::array<int, 4>;
 using Triangle = std::array<int, 3>;
 
 /// Pyramids below this quality are not made of two tetrahedra.
-constexpr double kGoodPyramid = 0.25;
-/// Cells below this quality are improved: first all, then the worst.
-constexpr double kWanted = 0.3;
+constexpr double kGoodPyramid = 0.35;
+/// Cells below this quality are improved.
+constexpr double kWanted = 0.42;
 
 /// Turns a quad so that its diagonal from the first corner lies deeper in the void. In a plane it is the
 /// shorter one, or with `other` the longer one.
@@ -52,9 +53,8 @@ std::vector<std::array<int, 4>> inner_tetrahedra(const Tetrahedra& made,
   std::vector<Face> faces;
   for (int c = 0; c < static_cast<int>(made.cells.size()); ++c) {
     const auto& v = made.cells[c];
-    for (const Triangle& t : {Triangle{v[0], v[2], v[1]}, Triangle{v[0], v[1], v[3]},
-                              Triangle{v[1], v[2], v[3]}, Triangle{v[2], v[0], v[3]}})
-      faces.push_back(face_of(t, c));
+    for (const auto& side : cell_tables::kTetSides)
+      faces.push_back(face_of({v[side[0]], v[side[1]], v[side[2]]}, c));
   }
   for (int i = 0; i < static_cast<int>(boundary.size()); ++i) faces.push_back(face_of(boundary[i], -1 - i));
   std::ranges::sort(faces, {}, [](const Face& f) { return std::pair(f.key, f.tetrahedron); });

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "delquad/error.h"
+#include "geometry/mesh/cell_shapes.h"
 
 namespace delquad {
 
@@ -44,10 +45,10 @@ void check_further(const std::vector<int>& nodes, std::size_t n_elements, int ea
 }  // namespace
 
 void require_straight(const Mesh& mesh, const std::string& where) {
-  if (!mesh.hexahedra.empty())
-    throw InputError(where +
-                     ": the mesh has hexahedra: expected quads and triangles alone; 'metrics', 'convert' and "
-                     "'view' take hexahedra");
+  if (is_solid(mesh))
+    throw InputError(fmt::format(
+        "{}: the mesh has {}: expected quads and triangles alone; 'metrics', 'convert' and 'view' take cells",
+        where, solid_at(mesh, 0).shape->plural));
   if (mesh.order > 1)
     throw InputError(
         fmt::format("{}: the mesh has elements of order {}: expected straight ones, of order 1; 'delquad "
@@ -66,7 +67,9 @@ void require_readable(const Mesh& mesh, const std::string& where) {
   check_elements(mesh.lines, mesh.line_curve, n, mesh.curves.size(), "line", "curve", where);
   check_elements(mesh.triangles, mesh.triangle_region, n, mesh.regions.size(), "triangle", "region", where);
   check_elements(mesh.quads, mesh.quad_region, n, mesh.regions.size(), "quad", "region", where);
-  check_elements(mesh.hexahedra, mesh.hex_volume, n, mesh.volumes.size(), "hexahedron", "volume", where);
+  for_each_shape(mesh, [&](const SolidShape& shape, const auto& cells, const auto& volumes) {
+    check_elements(cells, volumes, n, mesh.volumes.size(), shape.name, "volume", where);
+  });
   if (mesh.order < 1 || mesh.order > kMostOrder || (mesh.order > 1 && !mesh.triangles.empty()))
     throw InputError(
         fmt::format("{}: elements of order {} and {} triangles: expected orders 1 to {}, above 1 of "

@@ -13,7 +13,7 @@ namespace delquad {
 /// coordinates that are not finite. For other defects see check_invariants().
 void require_readable(const Mesh& mesh, const std::string& where);
 
-/// Throws InputError, which begins with `where`, for hexahedra and for elements of a higher order.
+/// Throws InputError, which begins with `where`, for cells of volumes and for elements of a higher order.
 void require_straight(const Mesh& mesh, const std::string& where);
 
 }  // namespace delquad

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/mesh/cell_shapes.h"
 
 // This header removes points that no element uses. The pipeline, features, readers and writers and geometry
 // use it.
@@ -35,7 +36,9 @@ inline std::vector<int> drop_unused_points(Mesh& mesh) {
     for (auto& e : mesh.lines) std::for_each(e.begin(), e.end(), visit);
     for (auto& e : mesh.triangles) std::for_each(e.begin(), e.end(), visit);
     for (auto& e : mesh.quads) std::for_each(e.begin(), e.end(), visit);
-    for (auto& e : mesh.hexahedra) std::for_each(e.begin(), e.end(), visit);
+    for_each_shape(mesh, [&](const SolidShape&, auto& cells, const auto&) {
+      for (auto& e : cells) std::for_each(e.begin(), e.end(), visit);
+    });
     for (auto* nodes : {&mesh.line_nodes, &mesh.quad_nodes})
       std::for_each(nodes->begin(), nodes->end(), visit);
   };

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/text.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
@@ -83,7 +84,7 @@ void rename_points(Mesh& mesh, const PointNames& names) {
   rename(mesh.lines);
   rename(mesh.triangles);
   rename(mesh.quads);
-  rename(mesh.hexahedra);
+  for_each_shape(mesh, [&](const SolidShape&, auto& cells, const auto&) { rename(cells); });
   renumber_nodes(mesh, names);
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "delquad/mesh.h"
 
-// This header sweeps quads to hexahedra, which it measures, and fills closed quads with cells. Programs that
+// This header sweeps quads to hexahedra, fills closed quads with cells, and measures cells. Programs that
 // mesh solids use it.
 
 namespace delquad {
@@ -53,18 +55,22 @@ struct SweepLayers {
 /// more than max_elements.
 Mesh extrude(const Mesh& mesh, const SweepPath& path, const SweepLayers& layers, ReadNotes* notes = nullptr);
 
-/// Measures of hexahedra.
-struct HexMeasures {
-  /// Least and mean over hexahedra. The value of a hexahedron is the least of eight corners: the determinant
-  /// of unit vectors along three edges. A box has 1; an inverted corner has 0 or less.
-  double least_jacobian = 0, mean_jacobian = 0;
+/// Measures of cells of one shape, or of all.
+struct ShapeMeasures {
+  std::string name;  ///< "hexahedra", "prisms", "pyramids", "tetrahedra", or "cells" for all
+  std::size_t count = 0;
   double volume = 0;
-  std::vector<double> jacobian;  ///< value of each hexahedron
-  int unproven =
-      0;  ///< hexahedra whose Jacobian is not proven positive everywhere, by Bernstein coefficients
+  /// Least and mean scaled Jacobian. The value of a cell is the least one of its corners, a determinant of
+  /// unit vectors along three edges. A cell with edges of one length has 1; an inverted corner has 0 or less.
+  double least_jacobian = 0, mean_jacobian = 0;
+  int unproven = 0;  ///< cells whose Jacobian is not proven positive everywhere
 };
-/// Returns the measures of a mesh of hexahedra of order 1.
-HexMeasures measure(const Mesh& hexahedra);
+struct CellMeasures : ShapeMeasures {
+  std::vector<ShapeMeasures> shapes;  ///< of each shape that there is
+  std::vector<double> jacobian;       ///< value of each hexahedron, prism, pyramid and tetrahedron
+};
+/// Returns the measures of the cells of a mesh.
+CellMeasures measure(const Mesh& mesh);
 
 /// Kinds of cells in a volume.
 enum class VolumeCells {

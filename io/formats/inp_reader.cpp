@@ -402,12 +402,13 @@ class InpReader {
         if (side < 0) continue;
         const std::vector<int>& v = deck_.elements[e].nodes;
         const bool is_solid = deck_.elements[e].is_solid;
-        const size_t k = static_cast<size_t>(side), n = is_solid ? kHexSides : deck_.elements[e].corners();
+        const size_t k = static_cast<size_t>(side),
+                     n = is_solid ? kSolidShapes[0].sides.size() : deck_.elements[e].corners();
         if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.label);
         std::vector<int> nodes = {v[k % v.size()], v[(k + 1) % n]}, other = {nodes[1], nodes[0]};
         if (!is_solid && v.size() == 8) nodes.push_back(v[4 + k]);
         if (is_solid) {
-          std::array<int, 4> quad = outward_side(v, side);
+          std::array<int, 4> quad = Solid{kSolidShapes.data(), v}.side(side);
           std::ranges::rotate(quad, std::ranges::min_element(quad));
           nodes.assign(quad.begin(), quad.end());
           other = {nodes[0], nodes[3], nodes[2], nodes[1]};

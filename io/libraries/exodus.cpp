@@ -352,7 +352,7 @@ class ExodusReader {
       const auto side = static_cast<int>(
           std::ranges::find(kSideOf, static_cast<int>(index(number, kSideOf.size(), "side")) + 1) -
           kSideOf.begin());
-      const auto nodes = outward_side(v, side);
+      const auto nodes = Solid{kSolidShapes.data(), v}.side(side);
       return {nodes.begin(), nodes.end()};
     }
     if (block.type->name == "SHELL" && number <= 2) return {};

@@ -3,7 +3,7 @@
 #include "features/extrusion/layers.h"
 #include "geometry/mesh/find_crossings.h"
 #include "io/mesh_io.h"
-#include "metrics/hexahedra.h"
+#include "metrics/cells.h"
 #include "tests/features/extrusion/hex_checks.h"
 
 namespace delquad::testing_support {
@@ -194,7 +194,7 @@ TEST(Sections, TheSameBytesForEveryNumberOfThreads) {
 double random_number(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 /// The Jacobian of the trilinear map by differences of the map itself.
-double jacobian_at(const HexCorners& p, double u, double v, double w) {
+double jacobian_at(const std::array<Vec3, 8>& p, double u, double v, double w) {
   const auto map = [&](double a, double b, double c) {
     const auto mix = [](double t, const Vec3& x, const Vec3& y) { return (1 - t) * x + t * y; };
     return mix(c, mix(b, mix(a, p[0], p[1]), mix(a, p[3], p[2])),
@@ -207,7 +207,7 @@ TEST(Hexahedra, AreProvenPositiveWhereSamplesAre) {
   std::mt19937_64 random(7);
   int proven = 0, refuted = 0, between = 0;
   for (int k = 0; k < 1500; ++k) {
-    HexCorners at = {
+    std::array<Vec3, 8> at = {
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
     for (Vec3& p : at)
       p = p +
@@ -235,7 +235,7 @@ TEST(Hexahedra, AreProvenPositiveWhereSamplesAre) {
 TEST(Hexahedra, VolumesAreThoseOfTheMap) {
   // A frustum with side 1 below and s above, turned by no angle: h (1 + s + s^2) / 3.
   for (const double s : {0.0, 0.5, 2.0}) {
-    const HexCorners at = {
+    const std::array<Vec3, 8> at = {
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 3}, {s, 0, 3}, {s, s, 3}, {0, s, 3}}};
     EXPECT_NEAR(signed_volume(at), 1 + s + s * s, 1e-14);
   }
