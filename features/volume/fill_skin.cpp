@@ -44,6 +44,9 @@ void check_skin(const Mesh& skin, long long max_elements) {
   if (skin.quads.empty()) throw InputError("the skin has no quads: expected a closed skin of quads");
   if (static_cast<long long>(skin.quads.size()) > max_elements)
     refuse("the skin has {} quads, and --max-elements allows {} cells", skin.quads.size(), max_elements);
+}
+
+void check_crossings(const Mesh& skin) {
   std::vector<std::array<int, 3>> triangles;
   for (const Quad& quad : skin.quads) {
     const auto [a, b, c, d] = by_better_diagonal(skin, quad);
@@ -186,7 +189,10 @@ class SkinFiller {
 
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {
   check_skin(skin, options.max_elements);
-  const Mesh mesh = SkinFiller(skin, options, notes).fill();
+  SkinFiller filler(skin, options,
+                    notes);  // a skin that crosses itself may be open, which is a better reason
+  check_crossings(skin);
+  const Mesh mesh = filler.fill();
   if (const std::vector<std::string> defects = defects_of_cells(mesh); !defects.empty())
     refuse("the cells are not sound: {}", fmt::join(defects, "; "));
   return mesh;

@@ -23,14 +23,14 @@ double mean_edge(const CellMesh& mesh, int v) {
   return n > 0 ? sum / n : 0;
 }
 
-/// Returns the gradients of the qualities of the worst cells at a vertex, by differences over a length.
-std::vector<Vec3> gradients(const CellMesh& mesh, int v, double length) {
-  constexpr double kBand = 0.05;
+/// Returns the gradients of the qualities of the cells at a vertex that are in a band above the least, by
+/// differences over a length.
+std::vector<Vec3> gradients(const CellMesh& mesh, int v, double band, double length) {
   constexpr std::size_t kMost = 8;
   std::vector<std::pair<double, int>> worst;
   const double least = mesh.least(mesh.at(v));
   for (const int c : mesh.at(v))
-    if (mesh.quality(c) < least + kBand) worst.emplace_back(mesh.quality(c), c);
+    if (mesh.quality(c) < least + band) worst.emplace_back(mesh.quality(c), c);
   std::ranges::sort(worst);
   if (worst.size() > kMost) worst.resize(kMost);
   std::vector<Vec3> all;
@@ -192,25 +192,25 @@ bool improve_cell(CellMesh& mesh, int c, double wanted) {
 }  // namespace
 
 double relocate(CellMesh& mesh, int v) {
-  constexpr int kMoves = 8, kHalvings = 8;
-  constexpr double kFirst = 0.25, kDifference = 1e-6;
+  constexpr int kMoves = 12, kHalvings = 8, kHalvingsIfBad = 24;
+  constexpr double kFirst = 0.25, kDifference = 1e-6, kBand = 0.05, kLeastBand = 1e-5, kBad = 0.05;
   const double before = mesh.least(mesh.at(v)), length = mean_edge(mesh, v);
+  double band = kBand;
   for (int i = 0; i < kMoves && length > 0; ++i) {
-    const Vec3 way = shortest(gradients(mesh, v, kDifference * length));
+    const Vec3 way = shortest(gradients(mesh, v, band, kDifference * length));
     const double steepness = norm(way), least = mesh.least(mesh.at(v));
-    if (!(steepness > 0)) break;
+    const double wanted = least + kGain * std::min(0.25, std::abs(least));
     double step = kFirst * length;
-    int halvings = 0;
-    while (halvings < kHalvings) {
+    int left = steepness > 0 ? least > kBad ? kHalvings : kHalvingsIfBad : 0;
+    for (; left > 0; --left, step /= 2) {
       const Vec3 x = mesh.points()[v] + (step / steepness) * way;
-      if (least_with(mesh, v, x, least + kGain / 4) > least + kGain / 4) {
-        mesh.move(v, x);
-        break;
-      }
-      step /= 2;
-      ++halvings;
+      if (!(least_with(mesh, v, x, wanted) > wanted)) continue;
+      mesh.move(v, x);
+      break;
     }
-    if (halvings == kHalvings) break;
+    if (left > 0) continue;
+    if (least > kGain || band < kLeastBand) break;
+    band /= 10;  // needles have qualities that change over shorter lengths
   }
   return mesh.least(mesh.at(v)) - before;
 }
