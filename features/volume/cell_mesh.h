@@ -67,8 +67,8 @@ class CellMesh {
 /// Moves a free vertex until the least quality of its cells stays the same; returns the gain.
 double relocate(CellMesh& mesh, int v);
 
-/// Improves the cells below a quality by moves, flips, collapses and splits of edges; the least quality never
-/// falls. Own method from the operations of [klingner2007].
+/// Improves the cells below a quality by moves of vertices, and by removals and collapses of edges. The least
+/// quality never falls. Own order of known operations.
 void improve(CellMesh& mesh, double wanted);
 
 }  // namespace delquad

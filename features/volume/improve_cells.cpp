@@ -11,8 +11,6 @@ namespace {
 
 /// A change must raise the least quality by more than this, so that changes end.
 constexpr double kGain = 1e-3;
-/// A split adds cells, so it must gain more.
-constexpr double kSplitGain = 0.02;
 
 double mean_edge(const CellMesh& mesh, int v) {
   double sum = 0;
@@ -106,25 +104,6 @@ bool remove_edge(CellMesh& mesh, int a, int b) {
   return mesh.replace(old, by, kGain);
 }
 
-/// Replaces the two tetrahedra at a face of a cell by three around the edge between their apices.
-bool remove_face(CellMesh& mesh, int c, int apex) {
-  const Cell cell = mesh.cells()[c];
-  std::array<int, 3> face;
-  for (int k = 0, n = 0; k < 4; ++k)
-    if (k != apex) face[n++] = cell[k];
-  if (apex % 2 == 0) std::swap(face[0], face[1]);  // counterclockwise seen from the apex
-  const std::vector<int> both = mesh.cells_with({face[0], face[1], face[2]});
-  if (both.size() != 2) return false;
-  const Cell& other = mesh.cells()[both[0] == c ? both[1] : both[0]];
-  if (other[4] >= 0) return false;
-  int far = -1;
-  for (int k = 0; k < 4; ++k)
-    if (std::ranges::find(face, other[k]) == face.end()) far = other[k];
-  std::vector<Cell> by;
-  for (int k = 0; k < 3; ++k) by.push_back({face[k], face[(k + 1) % 3], far, cell[apex], -1});
-  return mesh.replace(both, by, kGain);
-}
-
 /// Moves a free vertex onto another one, and removes the cells between.
 bool collapse(CellMesh& mesh, int u, int v) {
   std::vector<Cell> by;
@@ -141,29 +120,6 @@ bool collapse(CellMesh& mesh, int u, int v) {
   return mesh.replace(old, by, kGain);
 }
 
-/// Puts a vertex into an edge, if it can be moved so that the least quality rises.
-bool split(CellMesh& mesh, int a, int b) {
-  bool is_open = false;
-  const std::vector<int> ring = mesh.ring(a, b, is_open), old = mesh.cells_with({a, b});
-  if (ring.empty() || is_open) return false;
-  std::vector<Cell> cells;
-  for (const int c : old) cells.push_back(mesh.cells()[c]);
-  const double before = mesh.least(old);
-  const int m = mesh.add_point(0.5 * (mesh.points()[a] + mesh.points()[b]));
-  for (const int c : old) mesh.remove(c);
-  for (const Cell& cell : cells)
-    for (const int end : {a, b}) {
-      Cell part = cell;
-      std::ranges::replace(part, end, m);
-      mesh.add(part);
-    }
-  relocate(mesh, m);
-  if (mesh.least(mesh.at(m)) > before + kSplitGain) return true;
-  for (const int c : std::vector<int>(mesh.at(m))) mesh.remove(c);
-  for (const Cell& cell : cells) mesh.add(cell);
-  return false;
-}
-
 /// Tries all changes at a cell. Returns whether one was made.
 bool improve_cell(CellMesh& mesh, int c, double wanted) {
   const Cell cell = mesh.cells()[c];
@@ -172,20 +128,12 @@ bool improve_cell(CellMesh& mesh, int c, double wanted) {
   for (int k = 0; k < n; ++k)
     if (mesh.is_free(cell[k])) moved |= relocate(mesh, cell[k]) > kGain;
   if (mesh.quality(c) >= wanted) return true;
-  if (n == 4) {
-    for (int i = 0; i < 4; ++i)
-      for (int j = i + 1; j < 4; ++j)
-        if (remove_edge(mesh, cell[i], cell[j])) return true;
-    for (int k = 0; k < 4; ++k)
-      if (remove_face(mesh, c, k)) return true;
-  }
+  for (int i = 0; i < n && n == 4; ++i)
+    for (int j = i + 1; j < n; ++j)
+      if (remove_edge(mesh, cell[i], cell[j])) return true;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       if (i != j && mesh.is_free(cell[i]) && collapse(mesh, cell[i], cell[j])) return true;
-  if (n == 4)
-    for (int i = 0; i < 4; ++i)
-      for (int j = i + 1; j < 4; ++j)
-        if (split(mesh, cell[i], cell[j])) return true;
   return moved;
 }
 
