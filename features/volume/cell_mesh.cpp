@@ -114,8 +114,10 @@ std::vector<int> CellMesh::ring(int a, int b, bool& is_open) const {
   // An open ring begins at the vertex that no step reaches.
   for (const auto& [from, to] : steps)
     if (std::ranges::none_of(steps, [&, f = from](const auto& s) { return s[1] == f; })) around[0] = from;
-  for (auto step = next(around[0]); step != steps.end() && (*step)[1] != around[0]; step = next((*step)[1]))
+  for (auto step = next(around[0]); step != steps.end() && (*step)[1] != around[0]; step = next((*step)[1])) {
     around.push_back((*step)[1]);
+    if (around.size() > steps.size() + 1) return {};
+  }
   is_open = around.size() == steps.size() + 1;
   return is_open || around.size() == steps.size() ? around : std::vector<int>();
 }

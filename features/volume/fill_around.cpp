@@ -9,7 +9,6 @@
 #include "base/cancel.h"
 #include "features/volume/fill_void.h"
 #include "geometry/mesh/cell_shapes.h"
-#include "geometry/mesh/find_crossings.h"
 
 namespace delquad {
 
@@ -86,13 +85,10 @@ class Filler {
       check_cancelled();
       faces_ = open_faces(body_);
       if (faces_.empty()) return {};
-      const VoidBoundary boundary = boundary_of_void();
-      const Filling filling = fill_void(boundary);
-      std::vector<int> lost = filling.lost;
-      if (lost.size() == faces_.size()) lost = crossing_faces(boundary);
+      const Filling filling = fill_void(boundary_of_void());
       std::vector<int> cells;
       if (!filling.lost.empty())
-        cells = cells_at(lost);
+        cells = cells_at(filling.lost);
       else if (round < kPoorRounds)
         cells = cells_beside_poor(filling);
       if (cells.empty() && filling.lost.empty()) {
@@ -128,27 +124,6 @@ class Filler {
       boundary.holes.push_back(sum);
     }
     return boundary;
-  }
-
-  /// Returns the faces that cross others; all, if none is found.
-  std::vector<int> crossing_faces(const VoidBoundary& boundary) const {
-    std::vector<std::array<int, 3>> triangles;
-    std::vector<int> face_of, found;
-    for (const auto& [a, b, c, d] : boundary.quads) {
-      triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}, {a, b, d}, {b, c, d}});
-      face_of.insert(face_of.end(), 4, static_cast<int>(face_of.size()) / 4);
-    }
-    for (const auto& t : boundary.triangles) {
-      triangles.push_back(t);
-      face_of.push_back(static_cast<int>(boundary.quads.size() + (triangles.size() - 1)) -
-                        4 * static_cast<int>(boundary.quads.size()));
-    }
-    const auto same = [&](int i, int j) { return face_of[i] == face_of[j]; };
-    for (const Crossing& crossing : find_crossings(boundary.points, triangles, same))
-      found.insert(found.end(), {face_of[crossing.first], face_of[crossing.second]});
-    if (found.empty())
-      for (std::size_t i = 0; i < faces_.size(); ++i) found.push_back(static_cast<int>(i));
-    return found;
   }
 
   /// Returns the cells with one of these faces, or else those that share a vertex with one.

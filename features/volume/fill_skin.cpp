@@ -11,10 +11,10 @@
 #include "base/text.h"
 #include "delquad/hexahedra.h"
 #include "features/volume/fill_around.h"
+#include "features/volume/fill_void.h"
 #include "features/volume/find_bodies.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
-#include "geometry/mesh/find_crossings.h"
 #include "metrics/cells.h"
 
 namespace delquad {
@@ -46,23 +46,16 @@ void check_skin(const Mesh& skin, long long max_elements) {
     refuse("the skin has {} quads, and --max-elements allows {} cells", skin.quads.size(), max_elements);
 }
 
-void check_crossings(const Mesh& skin) {
-  std::vector<std::array<int, 3>> triangles;
-  for (const Quad& quad : skin.quads) {
-    const auto [a, b, c, d] = by_better_diagonal(skin, quad);
-    triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-  }
-  if (const auto crossing = find_crossing(skin.points, triangles))
-    refuse("the skin crosses itself at {}: quads {} and {}; smaller sizes there keep thin parts open",
-           show_point(crossing->at), crossing->first / 2, crossing->second / 2);
-}
-
 /// Fills bodies one by one and collects their cells.
 class SkinFiller {
  public:
   SkinFiller(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes)
       : options_(options), result_(skin), bodies_(find_bodies(skin, notes)) {
     for (const Quad& q : skin.quads) split_.push_back(by_better_diagonal(skin, q));
+    Vec3 where;
+    if (const std::vector<int> faces = untangle(skin.points, split_, {}, &where); !faces.empty())
+      refuse("the skin crosses itself at {} in {} quads: smaller sizes there keep thin parts open",
+             show_point(where), faces.size());
   }
 
   Mesh fill() {
@@ -189,10 +182,7 @@ class SkinFiller {
 
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {
   check_skin(skin, options.max_elements);
-  SkinFiller filler(skin, options,
-                    notes);  // a skin that crosses itself may be open, which is a better reason
-  check_crossings(skin);
-  const Mesh mesh = filler.fill();
+  const Mesh mesh = SkinFiller(skin, options, notes).fill();
   if (const std::vector<std::string> defects = defects_of_cells(mesh); !defects.empty())
     refuse("the cells are not sound: {}", fmt::join(defects, "; "));
   return mesh;

@@ -11,6 +11,7 @@
 #include "base/sort_unique.h"
 #include "features/volume/tetrahedralise.h"
 #include "geometry/mesh/cell_shapes.h"
+#include "geometry/mesh/find_crossings.h"
 
 namespace delquad {
 
@@ -101,7 +102,7 @@ class PyramidMaker {
     std::iota(left.begin(), left.end(), 0);
     std::erase_if(left, [&](int q) { return merge(quads_[q]); });
     for (const int q : left)
-      if (!merge(quads_[q]) && !split(quads_[q])) lost.push_back(q);
+      if (!merge(quads_[q]) && !raise(quads_[q])) lost.push_back(q);
     return lost;
   }
 
@@ -139,7 +140,7 @@ class PyramidMaker {
   }
 
   /// Splits the diagonal of a quad by a vertex, raised to where the worst cell is best.
-  bool split(const Quad& q) {
+  bool raise(const Quad& q) {
     const auto [a, b, c, d] = q;
     bool is_open = false;
     const std::vector<int> ring = mesh_.ring(a, c, is_open);
@@ -180,12 +181,26 @@ class PyramidMaker {
   std::set<std::pair<int, int>> diagonals_;  ///< of quads without pyramids, which no pyramid may use
 };
 
+/// Returns the face of a triangle, where quads come first and have two each.
+int face_at(int triangle, std::size_t n_quads) {
+  const int n = static_cast<int>(n_quads);
+  return triangle < 2 * n ? triangle / 2 : triangle - n;
+}
+
+/// Returns both triangles of each quad, by its diagonal from the first corner, then the given triangles.
+std::vector<Triangle> split(const std::vector<Quad>& quads, const std::vector<Triangle>& triangles) {
+  std::vector<Triangle> all;
+  for (const auto& [a, b, c, d] : quads) all.insert(all.end(), {{a, b, c}, {a, c, d}});
+  all.insert(all.end(), triangles.begin(), triangles.end());
+  return all;
+}
+
 /// Fills by given quads, whose diagonals from the first corners are used.
-Filling fill(const VoidBoundary& boundary, const std::vector<Quad>& quads) {
-  std::vector<Triangle> triangles;
-  for (const auto& [a, b, c, d] : quads) triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-  triangles.insert(triangles.end(), boundary.triangles.begin(), boundary.triangles.end());
+Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads) {
   Filling result;
+  result.lost = untangle(boundary.points, quads, boundary.triangles);
+  if (!result.lost.empty()) return result;
+  const std::vector<Triangle> triangles = split(quads, boundary.triangles);
   const auto made = tetrahedralise(boundary.points, triangles, boundary.holes);
   if (!made) {
     result.lost.resize(quads.size() + boundary.triangles.size());
@@ -194,7 +209,7 @@ Filling fill(const VoidBoundary& boundary, const std::vector<Quad>& quads) {
   }
   const int n_quads = static_cast<int>(quads.size());
   const std::vector<std::array<int, 4>> inside = inner_tetrahedra(*made, triangles, result.lost);
-  for (int& face : result.lost) face = face < 2 * n_quads ? face / 2 : face - n_quads;
+  for (int& face : result.lost) face = face_at(face, quads.size());
   sort_unique(result.lost);
   if (!result.lost.empty()) return result;
   CellMesh mesh(made->points, boundary.points.size());
@@ -221,6 +236,34 @@ Filling fill(const VoidBoundary& boundary, const std::vector<Quad>& quads) {
 }
 
 }  // namespace
+
+std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& quads,
+                          const std::vector<Triangle>& triangles, Vec3* where) {
+  constexpr int kPasses = 5;  // enough for the four choices of two quads
+  for (int pass = 0;; ++pass) {
+    const std::vector<Triangle> all = split(quads, triangles);
+    std::vector<Crossing> tangles = find_crossings(points, all, [](int, int) { return false; });
+    std::vector<std::pair<Triangle, int>> sorted;
+    for (std::size_t i = 0; i < all.size(); ++i) sorted.emplace_back(face_of(all[i], 0).key, i);
+    std::ranges::sort(sorted);
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+      if (sorted[i].first == sorted[i - 1].first)
+        tangles.push_back({sorted[i].second, sorted[i - 1].second, points[sorted[i].first[0]]});
+    std::vector<int> faces;
+    for (const Crossing& tangle : tangles)
+      for (const int t : {tangle.first, tangle.second})
+        if (pass == kPasses || t == (pass % 2 == 0 ? tangle.first : tangle.second))
+          faces.push_back(face_at(t, quads.size()));
+    sort_unique(faces);
+    if (pass == kPasses || tangles.empty()) {
+      if (where != nullptr && !tangles.empty()) *where = tangles[0].at;
+      return faces;
+    }
+    for (const int f : faces)
+      if (f < static_cast<int>(quads.size()))
+        std::rotate(quads[f].begin(), quads[f].begin() + 1, quads[f].end());
+  }
+}
 
 Filling fill_void(const VoidBoundary& boundary) {
   Filling best;

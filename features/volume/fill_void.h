@@ -30,6 +30,12 @@ struct Filling {
 /// A cell below this quality counts as flat. It is far above rounding.
 inline constexpr double kLeastQuality = 1e-6;
 
+/// Turns quads until their triangles by the diagonals from the first corners neither cross each other nor
+/// coincide. `triangles` stay as they are. Returns the faces, quads first, that still do, and where the first
+/// does.
+std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<std::array<int, 4>>& quads,
+                          const std::vector<std::array<int, 3>>& triangles, Vec3* where = nullptr);
+
 /// Fills a void. Tetrahedra come from tetrahedralise(). Two of them on a quad with a common apex become a
 /// pyramid. Elsewhere a new vertex splits the diagonal of the quad and is raised. Then cells are improved.
 Filling fill_void(const VoidBoundary& boundary);
