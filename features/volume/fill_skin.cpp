@@ -135,9 +135,9 @@ class SkinFiller {
 
   [[noreturn]] void refuse_body(const Body& body, const std::vector<int>& lost) const {
     refuse(
-        "the body cannot be filled at {}: {} of its {} quads get no cell; smaller sizes there, or an "
-        "--ignore-below for short edges, may help",
-        show_point(middle_of(result_, body[lost[0]].quad)), lost.size(), body.size());
+        "the body cannot be filled at {}: {} of its {} quads allow no cells; expected {}smaller sizes there",
+        show_point(middle_of(result_, body[lost[0]].quad)), lost.size(), body.size(),
+        tets_alone() ? "" : "'--cells tets', which splits quads, or ");
   }
 
   /// Names a volume by what all its faces have in common.
