@@ -30,6 +30,7 @@ struct VolumeArguments : MeshArguments {
 Mesh mesh_skin(const VolumeArguments& arguments, Progress& progress) {
   Case c = read_model_case(arguments.model);
   set_problem(arguments, c);
+  if (c.order > 1) refuse("--order {}: volumes have cells of order 1: expected 1", c.order);
   MeshResult result = mesh(std::move(c), arguments.pipeline.value_or(arguments.quality),
                            {.progress = [&](const ProgressReport& report) { progress.step(report.stage); }});
   progress.warn(result.warnings);
