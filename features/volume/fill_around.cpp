@@ -2,7 +2,6 @@
 #include "features/volume/fill_around.h"
 
 #include <algorithm>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -101,22 +100,13 @@ class Filler {
   }
 
  private:
-  VoidBoundary boundary_of_void() {
-    VoidBoundary boundary;
-    of_body_.clear();
-    std::map<int, int> place;
-    for (const OpenFace& face : faces_) {
-      std::array<int, 4> v = face.corners;
-      for (int k = 0; k < n_of(face); ++k) {
-        const auto [at, is_new] = place.try_emplace(v[k], static_cast<int>(of_body_.size()));
-        if (is_new) of_body_.push_back(v[k]), boundary.points.push_back(body_.points[v[k]]);
-        v[k] = at->second;
-      }
-      if (n_of(face) == 4)
+  VoidBoundary boundary_of_void() const {
+    VoidBoundary boundary{body_.points, {}, {}, {}};
+    for (const auto& [v, owner] : faces_)
+      if (v[3] >= 0)
         boundary.quads.push_back(v);
       else
         boundary.triangles.push_back({v[0], v[1], v[2]});
-    }
     for (std::size_t i = 0; i < n_solids(body_); ++i) {
       const std::span<const int> nodes = solid_at(body_, i).nodes;
       Vec3 sum;
@@ -155,7 +145,7 @@ class Filler {
       if (quality_of(corners, cell[4] >= 0) >= kPoorQuality) continue;
       std::vector<char> marked(body_.points.size(), 0);
       for (int k = 0; k < n_corners(cell); ++k)
-        if (cell[k] < static_cast<int>(of_body_.size())) marked[of_body_[cell[k]]] = 1;
+        if (cell[k] < static_cast<int>(marked.size())) marked[cell[k]] = 1;
       const std::vector<int> more = cells_with(marked, 2);
       beside.insert(beside.end(), more.begin(), more.end());
     }
@@ -170,22 +160,16 @@ class Filler {
   }
 
   void add_cells(const Filling& filling) {
-    for (std::size_t i = of_body_.size(); i < filling.points.size(); ++i) {
-      of_body_.push_back(static_cast<int>(body_.points.size()));
-      body_.points.push_back(filling.points[i]);
-    }
-    for (Cell cell : filling.cells) {
-      for (int k = 0; k < n_corners(cell); ++k) cell[k] = of_body_[cell[k]];
+    body_.points = filling.points;
+    for (const Cell& cell : filling.cells)
       if (cell[4] < 0)
         body_.tetrahedra.push_back({cell[0], cell[1], cell[2], cell[3]});
       else
         body_.pyramids.push_back(cell);
-    }
   }
 
   Mesh& body_;
   std::vector<OpenFace> faces_;  ///< of the void, in the order of VoidBoundary
-  std::vector<int> of_body_;     ///< point of the body for each point of the void
 };
 
 }  // namespace

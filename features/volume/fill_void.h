@@ -13,7 +13,7 @@ namespace delquad {
 
 /// The closed boundary of a void. Faces run counterclockwise seen from outside of the void.
 struct VoidBoundary {
-  std::vector<Vec3> points;  ///< points of no face should lie inside; they become vertices
+  std::vector<Vec3> points;  ///< points of no face are left out
   std::vector<std::array<int, 4>> quads;
   std::vector<std::array<int, 3>> triangles;
   std::vector<Vec3> holes;  ///< a point in each enclosed region that is no part of the void

@@ -11,6 +11,7 @@
 #include "base/orientation.h"
 #include "base/parallel.h"
 #include "base/process.h"
+#include "base/sort_unique.h"
 
 namespace delquad {
 
@@ -65,19 +66,31 @@ std::optional<Tetrahedra> tetrahedralise(const std::vector<Vec3>& points,
                                          const std::vector<std::array<int, 3>>& triangles,
                                          const std::vector<Vec3>& holes) {
   constexpr unsigned kSeconds = 60, kTrianglesPerSecond = 1000;  // a hundred times its usual time
+  std::vector<int> used;
+  for (const auto& t : triangles) used.insert(used.end(), t.begin(), t.end());
+  sort_unique(used);
+  std::vector<Vec3> corners;
+  for (const int v : used) corners.push_back(points[v]);
+  std::vector<std::array<int, 3>> numbered = triangles;
+  for (auto& t : numbered)
+    for (int& v : t) v = static_cast<int>(std::ranges::lower_bound(used, v) - used.begin());
   finish_threads();
-  const auto bytes = call_in_child([&] { return run_tetgen(points, triangles, holes); },
+  const auto bytes = call_in_child([&] { return run_tetgen(corners, numbered, holes); },
                                    kSeconds + static_cast<unsigned>(triangles.size()) / kTrianglesPerSecond);
   int n = 0;
   if (!bytes || bytes->size() < sizeof n) return std::nullopt;
   std::memcpy(&n, bytes->data(), sizeof n);
-  if (n < static_cast<int>(points.size())) return std::nullopt;
-  const char* at = bytes->data() + sizeof n;
-  Tetrahedra result{std::vector<Vec3>(n), {}};
-  std::memcpy(result.points.data(), at, n * sizeof(Vec3));
-  at += n * sizeof(Vec3);
+  const int n_used = static_cast<int>(used.size()), n_given = static_cast<int>(points.size());
+  if (n < n_used) return std::nullopt;
+  Tetrahedra result{points, {}};
+  result.points.resize(n_given + n - n_used);
+  const char* at = bytes->data() + sizeof n + n_used * sizeof(Vec3);
+  std::memcpy(result.points.data() + n_given, at, (n - n_used) * sizeof(Vec3));
+  at += (n - n_used) * sizeof(Vec3);
   result.cells.resize((bytes->data() + bytes->size() - at) / sizeof(result.cells[0]));
   std::memcpy(result.cells.data(), at, result.cells.size() * sizeof(result.cells[0]));
+  for (auto& c : result.cells)
+    for (int& v : c) v = v < n_used ? used[v] : v - n_used + n_given;
   const auto& p = result.points;
   for (auto& c : result.cells)
     if (orient3d(p[c[0]], p[c[1]], p[c[2]], p[c[3]]) < 0) std::swap(c[0], c[1]);

@@ -13,7 +13,7 @@ namespace delquad {
 
 /// Tetrahedra with corners as in Mesh::tetrahedra.
 struct Tetrahedra {
-  std::vector<Vec3> points;  ///< the given points, then new points off the triangles
+  std::vector<Vec3> points;  ///< all given points, then new points off the triangles
   std::vector<std::array<int, 4>> cells;
 };
 
