@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "delquad/mesh.h"
@@ -57,14 +58,26 @@ struct CellCode {
   CellShape shape;
   std::size_t n_nodes;
   Code code;
+  std::string_view order = {};  ///< places of the nodes, one digit each; empty: as here
 };
-/// Returns the code of a block, which must be listed.
+/// Returns the row of a block, which must be listed.
+template <class Code, std::size_t N>
+const CellCode<Code>& row_of(const CellBlock& cells, const CellCode<Code> (&codes)[N]) {
+  return *std::ranges::find_if(
+      codes, [&](const CellCode<Code>& c) { return c.shape == cells.shape && c.n_nodes == cells.n_nodes; });
+}
 template <class Code, std::size_t N>
 const Code& code_of(const CellBlock& cells, const CellCode<Code> (&codes)[N]) {
-  return std::ranges::find_if(
-             codes,
-             [&](const CellCode<Code>& c) { return c.shape == cells.shape && c.n_nodes == cells.n_nodes; })
-      ->code;
+  return row_of(cells, codes).code;
+}
+/// Returns the nodes of an element in the order of a format.
+template <class Code, std::size_t N>
+std::vector<int> nodes_of(const CellBlock& cells, std::size_t i, const CellCode<Code> (&codes)[N]) {
+  const std::vector<int> nodes = cells.nodes(i);
+  const std::string_view order = row_of(cells, codes).order;
+  std::vector<int> ordered;
+  for (const char digit : order) ordered.push_back(nodes[static_cast<std::size_t>(digit - '0')]);
+  return order.empty() ? nodes : ordered;
 }
 
 /// Returns the element and side of a half-edge.

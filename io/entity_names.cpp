@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/located.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/half_edges.h"
 
 namespace delquad {
@@ -172,8 +173,7 @@ void require_fits(const std::filesystem::path& path, const std::string& format, 
 void require_numbers(const std::filesystem::path& path, const std::string& format, const Mesh& mesh,
                      std::size_t most) {
   require_fits(path, format, mesh.points.size(), "nodes", most);
-  require_fits(path, format,
-               mesh.lines.size() + mesh.triangles.size() + mesh.quads.size() + mesh.hexahedra.size(),
+  require_fits(path, format, mesh.lines.size() + mesh.triangles.size() + mesh.quads.size() + n_solids(mesh),
                "elements", most);
 }
 

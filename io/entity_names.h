@@ -100,7 +100,7 @@ void require_quads(const std::filesystem::path& path, const std::string& format,
 /// Throws InputError if there are more than `most` of the things `what`, the largest number of the format.
 void require_fits(const std::filesystem::path& path, const std::string& format, std::size_t n,
                   const std::string& what, std::size_t most);
-/// Throws InputError unless the format can number the nodes, and lines, triangles and quads together, from 1.
+/// Throws InputError unless the format can number the nodes, and all elements together, from 1.
 void require_numbers(const std::filesystem::path& path, const std::string& format, const Mesh& mesh,
                      std::size_t most);
 

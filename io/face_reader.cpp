@@ -45,20 +45,23 @@ std::vector<Entity>& entities_of(Mesh& mesh, int dim) {
   return dim == 1 ? mesh.curves : dim == 2 ? mesh.regions : mesh.volumes;
 }
 
-std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
+std::string add_element(Mesh& mesh, CellShape shape, std::span<const int> nodes, int entity,
                         std::vector<int> (*places)(int order)) {
-  if (corners == kHexCorners) {
-    std::copy_n(nodes.begin(), kHexCorners, mesh.hexahedra.emplace_back().begin());
-    mesh.hex_volume.push_back(entity);
+  if (dimension_of(shape) == 3) {
+    for_each_shape(mesh, [&](const SolidShape& solid, auto& cells, std::vector<int>& volumes) {
+      if (solid.shape != shape) return;
+      std::copy_n(nodes.begin(), solid.n_corners, cells.emplace_back().begin());
+      volumes.push_back(entity);
+    });
     return "";
   }
-  const int order = corners == 2   ? order_of_line(nodes.size())
-                    : corners == 3 ? 1
-                                   : order_of_quad(nodes.size());
+  const int order = shape == CellShape::kLine       ? order_of_line(nodes.size())
+                    : shape == CellShape::kTriangle ? 1
+                                                    : order_of_quad(nodes.size());
   if (!takes_order(mesh, order)) return other_order(order, mesh.order);
-  if (corners == 2) {
+  if (shape == CellShape::kLine) {
     add_line(mesh, nodes, entity);
-  } else if (corners == 3) {
+  } else if (shape == CellShape::kTriangle) {
     mesh.triangles.push_back({nodes[0], nodes[1], nodes[2]});
     mesh.triangle_region.push_back(entity);
   } else if (order == 1) {

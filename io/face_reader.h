@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/element_nodes.h"
 #include "io/text_scanner.h"
 
@@ -23,17 +24,22 @@ namespace delquad {
 /// of a point in the file.
 void check_strays(const Mesh& mesh, Strays strays, const std::function<std::string(int)>& place);
 
-/// Adds a line, triangle, quad or hexahedron by its nodes: its corners first, then the nodes that `places` of
-/// its order has beside them. Hexahedra keep their corners alone. Returns the problem if its order differs
-/// from the order of the mesh; empty: it was added.
-inline constexpr int kHexCorners = 8;
-inline constexpr const char* kCornersOfHexahedra = "hexahedra of order 2 are read as their corners";
-/// Returns the dimension of elements with so many corners.
-constexpr int dimension_of(int corners) { return corners == kHexCorners ? 3 : corners > 2 ? 2 : corners - 1; }
 /// Returns Mesh::curves, regions or volumes.
 std::vector<Entity>& entities_of(Mesh& mesh, int dim);
-std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity,
+/// Adds an element by its nodes: its corners first, then the nodes that `places` of its order has beside
+/// them. Cells of volumes keep their corners alone. Returns the problem if its order differs from the order
+/// of the mesh; empty: it was added.
+std::string add_element(Mesh& mesh, CellShape shape, std::span<const int> nodes, int entity,
                         std::vector<int> (*places)(int order) = gmsh_places);
+/// Does the same for a line, triangle or quad by the number of its corners.
+inline std::string add_element(Mesh& mesh, int corners, std::span<const int> nodes, int entity) {
+  return add_element(mesh, static_cast<CellShape>(corners - 1), nodes, entity);
+}
+/// Returns whether a cell of a volume has further nodes, which is noted.
+inline bool has_further(CellShape shape, std::size_t n_nodes) {
+  return dimension_of(shape) == 3 && n_nodes > static_cast<std::size_t>(corners_of(shape));
+}
+inline constexpr const char* kCornersOfCells = "cells of order 2 are read as their corners";
 
 /// Adds named points while a mesh is read.
 class NamedPoints {

@@ -31,7 +31,7 @@ void write_loaded(const std::filesystem::path& path, const Mesh& mesh) {
 /// `is_built`: whether this program has the library.
 template <const char* name>
 MeshFormat loaded_format(bool is_built, MeshFormat format) {
-  if (!is_built) return format.has_hexahedra = false, format;
+  if (!is_built) return format.has_cells = false, format;
   format.write = write_by<write_loaded<name>>;
   format.package = "";
   return format;
@@ -48,7 +48,7 @@ MeshFormat exodus_format() {
                                  .read = DELQUAD_HAS_EXODUS ? read_loaded<kExodus> : nullptr,
                                  .most_order = 2,
                                  .package = "libexodusii-dev",
-                                 .has_hexahedra = true,
+                                 .has_cells = true,
                                  .labels = &kExodusLabels});
 }
 
@@ -57,7 +57,7 @@ MeshFormat cgns_format() {
                                                  .description = "CGNS",
                                                  .most_order = 2,
                                                  .package = "libcgns-dev",
-                                                 .has_hexahedra = true,
+                                                 .has_cells = true,
                                                  .labels = &kCgnsLabels});
 }
 
@@ -66,7 +66,7 @@ MeshFormat med_format() {
                                                .description = "MED: Code_Aster, Salome",
                                                .most_order = 2,
                                                .package = "libmedc-dev",
-                                               .has_hexahedra = true,
+                                               .has_cells = true,
                                                .labels = &kMedLabels});
 }
 

@@ -87,18 +87,22 @@ bool can_write(const MeshFormat& format) { return format.write != nullptr || !fo
 MeshFormat msh_format(), vtu_format(), obj_format(), inp_format(), medit_format(), vtk_format(),
     exodus_format(), cgns_format(), med_format(), xdmf_format(), mfem_format(), su2_format(),
     nastran_format(), unv_format(), ls_dyna_format(), sms_format(), gr3_format(), ugrid_format(),
-    ism_format(), hohqmesh_abaqus_format(), re2_format(), specfem_format(), foam_format(), off_format(),
-    stl_format(), ply_format(), three_mf_format();
+    aflr_format(), ism_format(), hohqmesh_abaqus_format(), re2_format(), specfem_format(), foam_format(),
+    off_format(), stl_format(), ply_format(), three_mf_format();
 
 const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> all = [] {
     std::vector<MeshFormat> formats;
-    for (auto* const make : {msh_format,  vtu_format,      obj_format,     inp_format, medit_format,
-                             vtk_format,  exodus_format,   cgns_format,    med_format, xdmf_format,
-                             mfem_format, su2_format,      nastran_format, unv_format, ls_dyna_format,
-                             sms_format,  gr3_format,      ugrid_format,   ism_format, hohqmesh_abaqus_format,
-                             re2_format,  specfem_format,  foam_format,    off_format, stl_format,
-                             ply_format,  three_mf_format, svg_format})
+    for (auto* const make : {msh_format,      vtu_format,     obj_format,
+                             inp_format,      medit_format,   vtk_format,
+                             exodus_format,   cgns_format,    med_format,
+                             xdmf_format,     mfem_format,    su2_format,
+                             nastran_format,  unv_format,     ls_dyna_format,
+                             sms_format,      gr3_format,     ugrid_format,
+                             aflr_format,     ism_format,     hohqmesh_abaqus_format,
+                             re2_format,      specfem_format, foam_format,
+                             off_format,      stl_format,     ply_format,
+                             three_mf_format, svg_format})
       formats.push_back(make());
     return formats;
   }();
@@ -164,7 +168,7 @@ std::vector<std::string> carry_sections(const std::filesystem::path& source,
 }
 
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options, int order,
-                       bool has_quads) {
+                       bool has_quads, bool may_have_cells) {
   const std::string kind = kind_to_write(path);
   const MeshFormat* format = find_format(kind);
   if (format == nullptr || !can_write(*format)) unknown(path, extensions_of(can_write));
@@ -173,6 +177,9 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
         "{}: this program was built without the library for '{}': install Debian's package {} "
         "and build it again [missing-library]",
         path.string(), kind, format->package);
+  if (!format->has_faces && !may_have_cells)
+    refuse("{}: '{}' holds volumes alone, and this is a mesh of faces: expected {}", path.string(), kind,
+           extensions_of([](const MeshFormat& f) { return can_write(f) && f.has_faces; }));
   if (order > format->most_order)
     refuse("{}: '{}' has no elements of order {} here: expected {}", path.string(), kind, order,
            extensions_of([&](const MeshFormat& f) { return can_write(f) && f.most_order >= order; }));
@@ -211,28 +218,33 @@ void check_depths(const std::filesystem::path& path) {
            extensions_of([](const MeshFormat& f) { return f.has_depths; }));
 }
 
-void check_hex_format(const std::filesystem::path& path, const MshOptions& options) {
+void check_cell_format(const std::filesystem::path& path, const MshOptions& options, const Mesh& mesh) {
   const std::string kind = kind_to_write(path);
   const MeshFormat* format = find_format(kind);
-  const auto can = [](const MeshFormat& f) { return f.has_hexahedra; };
+  const auto can = [](const MeshFormat& f) { return f.has_cells; };
   if (format == nullptr) unknown(path, extensions_of(can));
   if (!can(*format))
-    refuse("{}: '{}' is not written with hexahedra here: expected {}", path.string(), kind,
+    refuse("{}: '{}' is not written with cells of volumes here: expected {}", path.string(), kind,
            extensions_of(can));
-  check_mesh_format(path, options);
+  check_mesh_format(path, options, 1, false, true);
+  if (!format->has_pyramids && !mesh.pyramids.empty())
+    refuse(
+        "{}: '{}' has no pyramids, and there are {} (the first at {}): expected {}, or a mesh without them",
+        path.string(), kind, mesh.pyramids.size(), show_point(mesh.points[mesh.pyramids[0][4]]),
+        extensions_of([](const MeshFormat& f) { return f.has_cells && f.has_pyramids; }));
   if (options.element.empty()) return;
   if (kind != ".inp")
-    refuse("{}: '{}' has no kinds of hexahedra: expected .inp with --element", path.string(), kind);
-  if (std::ranges::find(inp_hexahedra(), options.element) == inp_hexahedra().end())
-    refuse("{}: unknown kind of hexahedra '{}': expected one of {}{}", path.string(), options.element,
-           fmt::join(inp_hexahedra(), ", "), suggestion(options.element, inp_hexahedra()));
+    refuse("{}: '{}' has no kinds of cells: expected .inp with --element", path.string(), kind);
+  if (std::ranges::find(inp_cells(), options.element) == inp_cells().end())
+    refuse("{}: unknown kind of cells '{}': expected one of {}{}", path.string(), options.element,
+           fmt::join(inp_cells(), ", "), suggestion(options.element, inp_cells()));
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
-  if (mesh.hexahedra.empty())
+  if (!is_solid(mesh))
     check_mesh_format(path, options, mesh.order, !mesh.quads.empty());
   else
-    check_hex_format(path, options);
+    check_cell_format(path, options, mesh);
   std::optional<Mesh> split;
   if (ReadNotes notes; options.triangles) split_quads(split.emplace(mesh), notes);
   find_format(kind_to_write(path))->write(path, split ? *split : mesh, options);
@@ -262,7 +274,7 @@ void write_serendipity(const std::filesystem::path& path, const Mesh& mesh, cons
 }
 
 int most_order_of(const std::filesystem::path& path) {
-  check_mesh_format(path);
+  check_mesh_format(path, {}, 1, false, true);
   return find_format(kind_to_write(path))->most_order;
 }
 
@@ -286,19 +298,20 @@ std::vector<std::string> unsupported_in_file(const std::filesystem::path& path, 
       lost.push_back(
           fmt::format("names of {}, which '{}' does not hold: {}", of, kind, fmt::join(all, ", ")));
   };
-  // Beside hexahedra volumes and faces take the places of regions and curves.
-  const bool is_solid = !mesh.hexahedra.empty();
-  const std::vector<Entity>&cells = is_solid ? mesh.volumes : mesh.regions,
-        &sides_of = is_solid ? mesh.regions : mesh.curves;
-  const char *const of_cells = is_solid ? "volumes" : "regions", *const of_sides =
-                                                                     is_solid ? "faces" : "curves";
+  // Beside cells volumes and faces take the places of regions and curves.
+  const bool is_volume = is_solid(mesh);
+  const std::vector<Entity>&cells = is_volume ? mesh.volumes : mesh.regions,
+        &sides_of = is_volume ? mesh.regions : mesh.curves;
+  const char *const of_cells = is_volume ? "volumes" : "regions", *const of_sides =
+                                                                      is_volume ? "faces" : "curves";
   std::set<std::string> of_regions, of_points, inside, around;
   for (const Entity& region : cells) of_regions.insert(region.names.begin(), region.names.end());
   of_regions.erase("domain");  // whose model has no name for it
   for (const NamedPoint& point : mesh.named_points)
     of_points.insert(point.entity.names.begin(), point.entity.names.end());
   const CellSides sides(mesh);
-  const std::vector<int>& entity_of = is_solid ? mesh.quad_region : mesh.line_curve;
+  std::vector<int> entity_of = is_volume ? mesh.triangle_region : mesh.line_curve;
+  if (is_volume) entity_of.insert(entity_of.end(), mesh.quad_region.begin(), mesh.quad_region.end());
   for (std::size_t i = 0; i < entity_of.size(); ++i) {
     const std::vector<std::string>& names_of = sides_of[entity_of[i]].names;
     (sides.at(static_cast<int>(i)).size() > 1 ? inside : around).insert(names_of.begin(), names_of.end());
@@ -335,7 +348,7 @@ std::vector<std::string> renamed_in_file(const std::filesystem::path& path, cons
       std::erase_if(groups, [](const MeshGroup& g) { return g.dim == 0; });
     return renamed_groups(groups);
   }
-  const bool tells = format->renamed != nullptr && mesh.hexahedra.empty();
+  const bool tells = format->renamed != nullptr && !is_solid(mesh);
   return tells ? format->renamed(mesh) : std::vector<std::string>();
 }
 

@@ -37,8 +37,10 @@ struct MeshFormat {
   void (*write)(const std::filesystem::path&, const Mesh&, const MshOptions&) = nullptr;
   int most_order = 1;        ///< of elements that are written
   std::string package = {};  ///< Debian package of the missing library; empty: nothing is missing
-  bool has_hexahedra = false;
-  bool has_shells = false;  ///< triangles and quads are shells, even in a plane
+  bool has_faces = true;     ///< triangles and quads without cells
+  bool has_cells = false;    ///< of volumes
+  bool has_pyramids = true;  ///< if it has cells
+  bool has_shells = false;   ///< triangles and quads are shells, even in a plane
   EightNodes eight_nodes = EightNodes::kNever;
   bool has_binary = false;
   bool has_depths = false;      ///< z of a planar mesh may be the height of the ground
@@ -72,8 +74,9 @@ void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOpti
   write(path, mesh);
 }
 
-/// Returns the values that MshOptions::element may have for hexahedra.
-const std::vector<std::string>& inp_hexahedra();
+/// Returns the values that MshOptions::element may have for cells. Types with 20 and 10 nodes have nodes in
+/// the middle of straight edges; other shapes get types of the same order.
+const std::vector<std::string>& inp_cells();
 /// The value for shells, even in a plane.
 inline constexpr const char* kShell = "S4";
 /// Returns the options for a mesh from this source: its shells stay shells in .inp.

@@ -103,10 +103,11 @@ bool holds_values(const std::filesystem::path& path);
 /// Throws InputError for an extension that write_mesh() does not know, with the known ones. Also throws if
 /// the format lacks an option, elements of that order, or quads.
 void check_mesh_format(const std::filesystem::path& path, const MshOptions& options = {}, int order = 1,
-                       bool has_quads = false);
+                       bool has_quads = false, bool may_have_cells = false);
 
-/// Throws InputError if the format has no hexahedra, with the formats that have them.
-void check_hex_format(const std::filesystem::path& path, const MshOptions& options);
+/// Throws InputError if the format has no cells of volumes, or no pyramids but the mesh has some, with the
+/// formats that have them.
+void check_cell_format(const std::filesystem::path& path, const MshOptions& options, const Mesh& mesh = {});
 
 /// Throws InputError if the format has no depths, with the formats that have them.
 void check_depths(const std::filesystem::path& path);

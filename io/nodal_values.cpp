@@ -57,10 +57,12 @@ MeshWithFields read_msh_fields(const std::filesystem::path& path, const FieldCho
   msh::MeshTags tags;
   MeshWithFields result{msh::to_mesh(std::move(contents), scanner, &tags), {}};
   require_own_points(result.mesh, tags.points.size(), path);
-  tags.triangles.insert(tags.triangles.end(), tags.quads.begin(), tags.quads.end());
-  if (!tags.hexahedra.empty()) tags.triangles = std::move(tags.hexahedra);
+  std::vector<long long> of_elements;
+  for (std::size_t s = 0; s < kCellShapes; ++s)
+    if (dimension_of(static_cast<CellShape>(s)) == dimension_of(result.mesh))
+      of_elements.insert(of_elements.end(), tags.elements[s].begin(), tags.elements[s].end());
   for (const std::size_t i : chosen) {
-    all[i].values = in_order(views[i], all[i].is_of_points ? tags.points : tags.triangles);
+    all[i].values = in_order(views[i], all[i].is_of_points ? tags.points : of_elements);
     result.fields.push_back(std::move(all[i]));
   }
   return result;
@@ -252,8 +254,7 @@ NodalValues read_field(const std::filesystem::path& path, const std::string& nam
 
 void require_own_points(const Mesh& mesh, std::size_t n_points, const std::filesystem::path& path) {
   if (mesh.points.size() != n_points)
-    refuse("{}: fields on quads of 8 nodes, or on hexahedra of order 2: expected 4, 9, 16 or 25",
-           path.string());
+    refuse("{}: fields on quads of 8 nodes, or on cells of order 2: expected 4, 9, 16 or 25", path.string());
 }
 
 bool holds_values(const std::filesystem::path& path) {

@@ -159,57 +159,49 @@ Vec3 middle(const Mesh& mesh, std::span<const int> nodes) {
 /// The nodes of a side without the -1 of triangles.
 std::span<const int> nodes_in(const std::array<int, 4>& side) { return {side.data(), side[3] < 0 ? 3u : 4u}; }
 
-/// A face of the mesh.
-struct Face {
+/// A side of a cell, or a face of the mesh.
+struct Side {
   std::array<int, 4> key, nodes;
+  bool is_face;
 };
 
-std::vector<Face> sorted_faces(const Mesh& mesh) {
-  std::vector<Face> faces;
-  for (const auto& [a, b, c] : mesh.triangles)
-    faces.push_back({side_key(std::array{a, b, c}), {a, b, c, -1}});
-  for (const auto& quad : mesh.quads) faces.push_back({side_key(quad), quad});
-  std::ranges::stable_sort(faces, {}, &Face::key);
-  return faces;
+/// Returns all sides by their nodes, with sides of cells first.
+std::vector<Side> sides_and_faces(const Mesh& mesh) {
+  std::vector<Side> all;
+  for (std::size_t i = 0; i < n_solids(mesh); ++i) {
+    const Solid cell = solid_at(mesh, i);
+    for (int s = 0; s < static_cast<int>(cell.shape->sides.size()); ++s)
+      all.push_back({side_key(cell.side(s)), cell.side(s), false});
+  }
+  for (const auto& v : mesh.triangles) all.push_back({side_key(v), {v[0], v[1], v[2], -1}, true});
+  for (const auto& v : mesh.quads) all.push_back({side_key(v), v, true});
+  std::ranges::stable_sort(all, {}, &Side::key);
+  return all;
 }
 
 /// Finds defects of the topology. Returns the faces of the mesh that are sides of one cell.
 std::vector<std::array<int, 4>> check_sides(const Mesh& mesh, Defects& defects) {
-  const std::vector<SolidSide> sides = sorted_sides(mesh);
-  const std::vector<Face> faces = sorted_faces(mesh);
-  const auto outward = [&](const SolidSide& side) {
-    return solid_at(mesh, static_cast<std::size_t>(side.side.element)).side(side.side.side);
-  };
+  const std::vector<Side> all = sides_and_faces(mesh);
   std::vector<std::array<int, 4>> skin;
-  auto face = faces.begin();
-  const auto report = [&](const char* kind, const std::array<int, 4>& nodes) {
-    defects.add(kind, middle(mesh, nodes_in(nodes)));
-  };
-  const auto skip_to = [&](const auto& is_behind) {
-    for (; face != faces.end() && !is_behind(face->key); ++face)
-      report("faces of the mesh that are no sides of cells", face->nodes);
-  };
-  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-    while (end < sides.size() && sides[end].nodes == sides[i].nodes) ++end;
-    const std::array<int, 4> side = outward(sides[i]);
-    skip_to([&](const auto& key) { return !(key < sides[i].nodes); });
-    const bool has_face = face != faces.end() && face->key == sides[i].nodes;
-    if (end - i > 2) report("sides of three cells or more", side);
-    if (end - i == 2) {
-      std::array<int, 4> other = outward(sides[i + 1]);
-      std::reverse(other.begin(), other.begin() + nodes_in(other).size());
-      if (!same_turn(side, other)) report("sides of two cells that have other orders of corners there", side);
+  for (auto side = all.begin(), end = side; side != all.end(); side = end) {
+    end = std::find_if(side, all.end(), [&](const Side& other) { return other.key != side->key; });
+    const auto face = std::find_if(side, end, [](const Side& other) { return other.is_face; });
+    const auto report = [&](const char* kind) { defects.add(kind, middle(mesh, nodes_in(side->nodes))); };
+    if (face - side == 0) report("faces of the mesh that are no sides of cells");
+    if (face - side > 2) report("sides of three cells or more");
+    if (end - face > 1) report("faces of the mesh that are there twice");
+    if (face - side == 2) {
+      std::array<int, 4> other = side[1].nodes;
+      std::reverse(other.begin(), other.begin() + (other[3] < 0 ? 3 : 4));
+      if (!same_turn(side->nodes, other))
+        report("sides of two cells that have other orders of corners there");
     }
-    if (end - i == 1 && !has_face) report("sides of one cell that are no faces of the mesh", side);
-    if (end - i == 1 && has_face) {
+    if (face - side == 1 && face == end) report("sides of one cell that are no faces of the mesh");
+    if (face - side == 1 && face != end) {
       skin.push_back(face->nodes);
-      if (!same_turn(side, face->nodes)) report("faces of the mesh that do not look outwards", side);
+      if (!same_turn(side->nodes, face->nodes)) report("faces of the mesh that do not look outwards");
     }
-    if (has_face) ++face;
-    for (; face != faces.end() && face->key == sides[i].nodes; ++face)
-      report("faces of the mesh that are there twice", face->nodes);
   }
-  skip_to([](const auto&) { return false; });
   return skin;
 }
 

@@ -46,7 +46,7 @@ MeshWithFields read_whole(const std::filesystem::path& path, ReadNotes& notes,
 
 int convert_command(const ConvertArguments& arguments) {
   check_distinct({{"the mesh", arguments.mesh}, {"the other one", arguments.output}});
-  check_mesh_format(arguments.output, arguments.msh);
+  check_mesh_format(arguments.output, arguments.msh, 1, false, true);
   check_triangles(arguments.mesh, arguments.output, arguments.msh);
   check_output(arguments.output);
   ReadNotes notes;

@@ -171,7 +171,7 @@ SweepPath path_of(const ExtrudeArguments& arguments, const Mesh& mesh) {
 }
 
 int extrude_command(const ExtrudeArguments& arguments) {
-  check_hex_format(arguments.output, arguments.file);
+  check_cell_format(arguments.output, arguments.file);
   // The curve may lie in the mesh's own file.
   for (const auto& [what, path] : {std::pair<std::string, std::filesystem::path>("the mesh", arguments.mesh),
                                    std::pair<std::string, std::filesystem::path>("--curve", arguments.curve)})

@@ -51,7 +51,8 @@ int formats_command() {
   for (const MeshFormat& format : mesh_formats()) {
     const bool written = can_write(format);
     std::string what = format.description;
-    if (format.has_hexahedra) what += "; hexahedra, too";
+    if (format.has_cells) what += format.has_faces ? "; volumes, too" : "; volumes alone";
+    if (format.has_cells && !format.has_pyramids) what += " (no pyramids)";
     if (!format.package.empty())
       what += fmt::format(" (not in this program: install {} and build it again)", format.package);
     fmt::print(kRow, fmt::format("{}", fmt::join(format.extensions, " ")), format.read ? "yes" : "-",

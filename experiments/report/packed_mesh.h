@@ -20,6 +20,9 @@ namespace delquad {
 /// fails). Then come the ends of lines, irregular vertices (number and valence), and pairs of them. With
 /// entities the last are the regions of triangles and quads and the curves of lines, by index. A curved quad
 /// is a polygon: `order` nodes for each side. A curved line has `order` pieces.
+/// With entities a mesh of cells has the faces between them, too, in a further region. The cells of each face
+/// follow, two numbers, where the number of all cells stands for none. At the end are place, shape (0:
+/// hexahedron to 3: tetrahedron) and scaled Jacobian, in 128ths, of all cells.
 struct PackedMesh {
   Json info;  ///< numbers of each item
   std::string text;

@@ -7,6 +7,7 @@
 #include "delquad/error.h"
 #include "delquad/hexahedra.h"
 #include "experiments/report/page.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "io/mesh_io.h"
 
 namespace delquad {
@@ -40,18 +41,23 @@ void write_view(const std::filesystem::path& file, const Mesh& mesh, const std::
   data["title"] = title;
   data["unit"] = mesh.unit;
   data["values"] = Json::object();
-  const bool is_solid = !mesh.hexahedra.empty();
-  if (is_solid)
-    data["values"] = {{"n_elements", mesh.hexahedra.size()},
+  const bool is_volume = is_solid(mesh);
+  const CellMeasures cells = measure(mesh);
+  if (is_volume)
+    data["values"] = {{"n_elements", cells.count},
                       {"n_vertices", mesh.points.size()},
-                      {"scaled_jacobian_min", measure(mesh).least_jacobian}};
+                      {"scaled_jacobian_min", cells.least_jacobian}};
   for (const auto& [key, value] : metrics.values)
-    if (std::isfinite(value) && !is_solid) data["values"][key] = value;
-  data["hexahedra"] = mesh.hexahedra.size();
+    if (std::isfinite(value) && !is_volume) data["values"][key] = value;
+  data["cells"] = Json::array();
+  for_each_shape(mesh, [&](const SolidShape& shape, const auto& all, const auto&) {
+    data["cells"].push_back({{"name", shape.plural}, {"number", all.size()}});
+  });
   data["eta"] = metrics.eta.counts;
   data["warnings"] = notes.warnings;
-  data["closeups"] = is_solid ? Json::array() : closeups_json(mesh, kCloseups);
+  data["closeups"] = is_volume ? Json::array() : closeups_json(mesh, kCloseups);
   data["regions"] = entities_json(mesh.regions);
+  if (is_volume) data["regions"].push_back({{"tag", 0}, {"names", {"inside"}}});
   data["curves"] = entities_json(mesh.curves);
   data["points"] = points_json(mesh);
   write_file_atomically(file, [&](std::ostream& out) {

@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "delquad/mesh.h"
+#include "geometry/mesh/cell_shapes.h"
 
 // This header reads and rewrites decks of solvers. The formats of Abaqus and Nastran use it.
 
@@ -53,7 +54,7 @@ struct Deck {
     int pin = -1;            ///< line that names it, so that it stays; 0: a set; -1: none
     int joined = -1;         ///< index of the node that replaces it; -1: none
   };
-  /// A line, triangle or quad, or a hexahedron of a deck that is no one to improve.
+  /// A line, triangle or quad, or a cell of a volume of a deck that is no one to improve.
   struct Element {
     long long number;
     std::vector<int> nodes;  ///< indices
@@ -65,11 +66,14 @@ struct Deck {
     double angle = 0;                    ///< from the first side to the material's direction, in degrees
     bool is_solid = false;
 
-    /// Returns 2, 3 or 4; a quad that repeats its last corner counts as a triangle.
-    std::size_t corners() const {
-      if (is_solid) return 8;
-      return nodes.size() == 4 && nodes[2] == nodes[3] ? 3 : std::min<std::size_t>(nodes.size(), 4);
+    /// A quad that repeats its last corner counts as a triangle.
+    CellShape shape() const {
+      using enum CellShape;
+      const std::size_t n = nodes.size();
+      if (is_solid) return n == 4 || n == 10 ? kTetrahedron : n == 6 || n == 15 ? kPrism : kHexahedron;
+      return n == 2 ? kLine : n == 3 || (n == 4 && nodes[2] == nodes[3]) ? kTriangle : kQuad;
     }
+    std::size_t corners() const { return static_cast<std::size_t>(corners_of(shape())); }
   };
   /// A row of a surface: a side "S2" or "E2" of elements, by their number or set.
   struct Side {
@@ -153,9 +157,9 @@ class DeckText {
   const Deck& deck_;
 };
 
-/// Reads Abaqus input: *NODE, *ELEMENT of two to four or eight nodes (shells, membranes, plane ones, bars),
-/// *ELSET. Element sets become names of regions, unless they begin with an underscore. Surfaces of sides (S1
-/// to S4, E1 to E4) become curves. Other keywords are left out.
+/// Reads Abaqus input: *NODE, *ELEMENT of lines, faces and cells but pyramids (shells, membranes, plane ones,
+/// bars, C3D4 to C3D20), *ELSET. Element sets become names of regions, unless they begin with an underscore.
+/// Surfaces of sides (S1 to S4, E1 to E4) become curves. Other keywords are left out.
 ///
 /// With `as_deck` its mesh is one to improve. Then elements of a region have one orientation, and elements
 /// that lines name by number have regions of their own. Nodes that must stay for other reasons than their

@@ -25,9 +25,9 @@
 
 namespace delquad {
 
-const std::vector<std::string>& inp_hexahedra() {
-  static const std::vector<std::string> all = {"C3D8",   "C3D8I", "C3D8R", "C3D20",
-                                               "C3D20R", "DC3D8", "DC3D20"};
+const std::vector<std::string>& inp_cells() {
+  static const std::vector<std::string> all = {"C3D8",  "C3D8I", "C3D8R",  "C3D20", "C3D20R", "C3D4",
+                                               "C3D10", "DC3D8", "DC3D20", "DC3D4", "DC3D10"};
   return all;
 }
 
@@ -80,7 +80,7 @@ void write_inp_sets(TextWriter& out, const char* keyword, Sets& sets) {
   }
 }
 
-/// Entities beside hexahedra go by their names alone.
+/// Entities beside cells of volumes go by their names alone.
 std::vector<UniqueLabels::Key> keys_of(const Entity& entity, int dim, bool is_solid) {
   std::vector<UniqueLabels::Key> keys;
   if (!is_solid) keys.emplace_back(kTagOf + dim, tag_label(dim, entity.tag));
@@ -123,14 +123,23 @@ UniqueLabels make_labels(const Mesh& mesh, bool is_solid) {
   return UniqueLabels(keys, {plain_label, true, kLongestInpName});
 }
 
-/// In the order of their nodes in C3D20; of faces and curves in any.
-std::vector<std::pair<int, int>> edges_of(const std::vector<int>& v) {
+/// Returns edges of an element; cells have them in the order of the nodes of C3D20, C3D15 and C3D10.
+std::vector<std::pair<int, int>> edges_of(const CellBlock& cells, const std::vector<int>& v) {
   std::vector<std::pair<int, int>> edges;
-  if (v.size() == 2) edges.emplace_back(v[0], v[1]);
-  for (std::size_t side = 0; side + 4 <= v.size(); side += 4)
-    for (std::size_t k = 0; k < 4; ++k) edges.emplace_back(v[side + k], v[side + (k + 1) % 4]);
-  for (std::size_t k = 4; k < v.size(); ++k) edges.emplace_back(v[k - 4], v[k]);
+  if (cells.dim == 3)
+    for (const auto& [a, b] : solid_shape(cells.shape).edges) edges.emplace_back(v[a], v[b]);
+  else
+    for (std::size_t k = 0; k < v.size(); ++k) edges.emplace_back(v[k], v[(k + 1) % v.size()]);
   return edges;
+}
+
+/// Types of hexahedra, prisms and tetrahedra in a mesh for which one of inp_cells() is chosen.
+std::array<std::string, 3> types_of_cells(std::string element) {
+  if (element.empty()) element = inp_cells()[0];
+  const std::string prefix = element[0] == 'D' ? "DC3D" : "C3D";
+  const bool is_quadratic = element.find("20") != std::string::npos || element.ends_with("10");
+  if (element.ends_with("4") || element.ends_with("10")) element = prefix + (is_quadratic ? "20" : "8");
+  return {element, prefix + (is_quadratic ? "15" : "6"), prefix + (is_quadratic ? "10" : "4")};
 }
 
 class InpWriter {
@@ -138,15 +147,16 @@ class InpWriter {
   InpWriter(TextWriter& out, const Mesh& mesh, const std::string& element)
       : out_(out),
         mesh_(mesh),
-        is_solid_(!mesh.hexahedra.empty()),
+        is_solid_(is_solid(mesh)),
         // Plane elements of a face that looks down would be inverted.
         is_planar_(element != kShell && is_planar(mesh)),
-        element_(element.empty() ? inp_hexahedra()[0] : element),
+        types_(types_of_cells(element)),
         cells_(cell_blocks(mesh, places_on_sides(mesh.order))),
         labels_(make_labels(mesh, is_solid_)) {
-    if (!is_solid_ || element_.find("20") == std::string::npos) return;
-    for (std::size_t i = 0; i < mesh.hexahedra.size(); ++i)
-      for (const auto& [a, b] : edges_of(cells_.back().nodes(i))) edges_.push_back(std::minmax({a, b}));
+    if (!is_solid_ || !types_[1].ends_with("15")) return;
+    for (const CellBlock& cells : cells_)
+      for (std::size_t i = 0; i < cells.size() && cells.dim == 3; ++i)
+        for (const auto& [a, b] : edges_of(cells, cells.nodes(i))) edges_.push_back(std::minmax({a, b}));
     sort_unique(edges_);
   }
 
@@ -176,7 +186,7 @@ class InpWriter {
  private:
   void write_head() {
     const std::array kKinds = {"point", "curve", is_solid_ ? "face" : "region", "volume", "set"};
-    out_ << "*HEADING\n" << (is_solid_ ? "Mesh of hexahedra" : "Quad mesh") << " by Delquad\n";
+    out_ << "*HEADING\n" << (is_solid_ ? "Volume mesh" : "Quad mesh") << " by Delquad\n";
     if (!mesh_.unit.empty()) out_ << "** lengths in " << mesh_.unit << '\n';
     for (const auto& [key, label] : labels_.renamed())
       out_ << "** " << (key.first < kNameOf ? "" : kKinds[key.first - kNameOf]) << " \""
@@ -207,7 +217,9 @@ class InpWriter {
     const CellCode<std::string> types[] = {{kTriangle, 3, is_planar_ ? "CPS3" : "S3"},
                                            {kQuad, 4, is_planar_ ? "CPS4" : "S4"},
                                            {kQuad, 8, is_planar_ ? "CPS8" : "S8R"},
-                                           {kHexahedron, 8, element_}};
+                                           {kHexahedron, 8, types_[0]},
+                                           {kPrism, 6, types_[1]},
+                                           {kTetrahedron, 4, types_[2]}};
     int n = 0;
     for (const CellBlock& cells : cells_) {
       if (cells.dim != dimension_of(mesh_)) continue;
@@ -221,7 +233,7 @@ class InpWriter {
   std::vector<int> nodes_of(const CellBlock& cells, std::size_t i) const {
     std::vector<int> nodes = cells.nodes(i);
     if (edges_.empty()) return nodes;
-    for (const auto& [a, b] : edges_of(nodes)) {
+    for (const auto& [a, b] : edges_of(cells, cells.nodes(i))) {
       const auto at = std::ranges::lower_bound(edges_, std::pair(std::minmax({a, b})));
       nodes.push_back(static_cast<int>(mesh_.points.size()) + static_cast<int>(at - edges_.begin()));
     }
@@ -305,10 +317,10 @@ class InpWriter {
   TextWriter& out_;
   const Mesh& mesh_;
   const bool is_solid_, is_planar_;
-  const std::string element_;  ///< of hexahedra
+  const std::array<std::string, 3> types_;
   const std::vector<CellBlock> cells_;
   const UniqueLabels labels_;
-  std::vector<std::pair<int, int>> edges_;  ///< of hexahedra, with a node in the middle; sorted
+  std::vector<std::pair<int, int>> edges_;  ///< of cells, with a node in the middle; sorted
   Sets element_sets_, node_sets_, sides_, surface_nodes_;
   std::map<std::string, std::set<std::string>> sides_of_;
 };
@@ -319,8 +331,8 @@ class InpWriter {
 /// Every region is an ELSET and an NSET, every curve an NSET and a SURFACE. They go by tag ("region_3",
 /// "curve_5") and by each name, in letters, digits and underscores; comments have the table. A curve's
 /// surface has the sides of plane elements, and the nodes of shells. Sides of shells are ELSETs for edge
-/// loads ("_curve_5_E2"). Beside hexahedra every name is an NSET. Names of volumes are ELSETs, too, and
-/// names of faces on the boundary SURFACEs.
+/// loads ("_curve_5_E2"). Beside cells of volumes every name is an NSET. Names of volumes are ELSETs, too,
+/// and names of faces on the boundary SURFACEs.
 void write_inp(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   require_numbers(path, "Abaqus", mesh, 999'999'999);
   write_text_file(path, [&](TextWriter& out) { InpWriter(out, mesh, options.element).write(); });
@@ -338,14 +350,15 @@ MeshFormat inp_format() {
                   if (notes != nullptr && other.starts_with("*ELEMENT"))
                     notes->push_back(other + " is not read");
                 if (notes != nullptr && std::ranges::any_of(deck.elements, [](const Deck::Element& e) {
-                      return e.is_solid && e.nodes.size() > e.corners();
+                      return has_further(e.shape(), e.nodes.size());
                     }))
-                  notes->push_back(kCornersOfHexahedra);
+                  notes->push_back(kCornersOfCells);
                 return std::move(deck.mesh);
               },
           .write = write_inp,
           .most_order = 2,
-          .has_hexahedra = true,
+          .has_cells = true,
+          .has_pyramids = false,
           .eight_nodes = EightNodes::kAlways,
           .names = kAllNames | kFurtherNames | kPeriodicPairs,
           .read_given = [](const std::filesystem::path& path,

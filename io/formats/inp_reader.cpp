@@ -51,15 +51,17 @@ Deck::Card card_of(std::string_view line) {
   return keyword;
 }
 
-/// Nodes of an element type; 0: not one of lines, triangles, quads and hexahedra.
+/// Nodes of an element type; 0: not one of lines, triangles, quads, hexahedra, prisms and tetrahedra.
 int nodes_of_type(const std::string& type) {
   static const std::pair<const char*, int> kinds[] = {
-      {"S4", 4},     {"CPS4", 4},  {"CPE4", 4},  {"CPEG4", 4},  {"CAX4", 4},   {"M3D4", 4}, {"R3D4", 4},
-      {"SFM3D4", 4}, {"DS4", 4},   {"DC2D4", 4}, {"S3", 3},     {"STRI3", 3},  {"CPS3", 3}, {"CPE3", 3},
-      {"S8", 8},     {"CPS8", 8},  {"CPE8", 8},  {"CPEG8", 8},  {"CAX8", 8},   {"M3D8", 8}, {"SFM3D8", 8},
-      {"DS8", 8},    {"DC2D8", 8}, {"CPEG3", 3}, {"CAX3", 3},   {"M3D3", 3},   {"R3D3", 3}, {"SFM3D3", 3},
-      {"DS3", 3},    {"DC2D3", 3}, {"T2D2", 2},  {"T3D2", 2},   {"B21", 2},    {"B31", 2},  {"R2D2", 2},
-      {"RAX2", 2},   {"C3D8", 8},  {"DC3D8", 8}, {"C3D20", 20}, {"DC3D20", 20}};
+      {"S4", 4},     {"CPS4", 4},    {"CPE4", 4},   {"CPEG4", 4},   {"CAX4", 4},   {"M3D4", 4},
+      {"R3D4", 4},   {"SFM3D4", 4},  {"DS4", 4},    {"DC2D4", 4},   {"S3", 3},     {"STRI3", 3},
+      {"CPS3", 3},   {"CPE3", 3},    {"S8", 8},     {"CPS8", 8},    {"CPE8", 8},   {"CPEG8", 8},
+      {"CAX8", 8},   {"M3D8", 8},    {"SFM3D8", 8}, {"DS8", 8},     {"DC2D8", 8},  {"CPEG3", 3},
+      {"CAX3", 3},   {"M3D3", 3},    {"R3D3", 3},   {"SFM3D3", 3},  {"DS3", 3},    {"DC2D3", 3},
+      {"T2D2", 2},   {"T3D2", 2},    {"B21", 2},    {"B31", 2},     {"R2D2", 2},   {"RAX2", 2},
+      {"C3D8", 8},   {"DC3D8", 8},   {"C3D20", 20}, {"DC3D20", 20}, {"C3D4", 4},   {"DC3D4", 4},
+      {"C3D10", 10}, {"DC3D10", 10}, {"C3D6", 6},   {"DC3D6", 6},   {"C3D15", 15}, {"DC3D15", 15}};
   for (const auto& [name, n] : kinds) {
     const std::string_view rest =
         std::string_view(type).substr(std::min(type.size(), std::string_view(name).size()));
@@ -116,7 +118,7 @@ class InpReader {
     }
     if (!pending_.empty()) in_.fail("the file ends within an element: expected a whole file");
     if (deck_.elements.empty() && unread_line_ > 0) fail_type(unread_line_);
-    if (deck_.elements.empty()) in_.fail("the file holds no *ELEMENT of two, three, four or eight nodes");
+    if (deck_.elements.empty()) in_.fail("the file holds no *ELEMENT of lines, triangles, quads or cells");
     add_sides_of_shells();
     name_elements();
     check_instances();
@@ -155,8 +157,8 @@ class InpReader {
     in_.fail_at(line,
                 "element type {}: expected lines or triangles of first order, quads{}, such as S4, CPS4, S3, "
                 "S8R{}",
-                TextScanner::printable(unread_type_), as_deck_ ? "" : " or hexahedra",
-                as_deck_ ? "" : ", C3D8");
+                TextScanner::printable(unread_type_), as_deck_ ? "" : ", hexahedra, prisms or tetrahedra",
+                as_deck_ ? "" : ", C3D8, C3D6, C3D4");
   }
 
   void begin(const std::string& line, size_t place) {
@@ -363,14 +365,14 @@ class InpReader {
   void make_mesh() {
     std::map<std::pair<int, std::vector<std::string>>, int> index;
     for (Element& e : deck_.elements) {
-      const int dim = dimension_of(static_cast<int>(e.corners()));
+      const int dim = dimension_of(e.shape());
       std::vector<Entity>& entities = entities_of(mesh_, dim);
       const auto [it, is_new] = index.emplace(std::pair{dim, e.sets}, static_cast<int>(entities.size()));
       if (is_new) entities.push_back({it->second + 1, e.sets});
       std::erase_if(entities.back().names,
                     [](const std::string& name) { return name[0] == '_' || name[0] == '#'; });
       e.region = it->second;
-      const std::string wrong = add_element(mesh_, static_cast<int>(e.corners()), e.nodes, e.region);
+      const std::string wrong = add_element(mesh_, e.shape(), e.nodes, e.region);
       if (!wrong.empty()) in_.fail_at(e.line, "{}", wrong);
     }
     add_surfaces();
@@ -391,41 +393,44 @@ class InpReader {
     }
   }
 
-  /// Sides "S2" or "E2" of elements become lines, or quads of hexahedra. Sides on several surfaces are of a
+  /// Sides "S2" or "E2" of elements become lines, or faces of cells. Sides on several surfaces are of a
   /// curve or face of all their names. Surfaces of whole elements are no curves.
   void add_surfaces() {
-    // By the nodes of a line, its ends first, or of a quad, the least first.
-    std::map<std::vector<int>, std::vector<std::string>> names_of;
+    // By dimension, and the nodes of a line, its ends first, or of a face, the least first.
+    std::map<std::pair<int, std::vector<int>>, std::vector<std::string>> names_of;
     for (const Deck::Side& s : deck_.sides) {
       for (const int e : deck_.elements_of(s)) {
         const int side = deck_.side_of(deck_.elements[e], s.label);
         if (side < 0) continue;
         const std::vector<int>& v = deck_.elements[e].nodes;
-        const bool is_solid = deck_.elements[e].is_solid;
+        const bool is_cell = deck_.elements[e].is_solid;
+        const CellShape shape = deck_.elements[e].shape();
         const size_t k = static_cast<size_t>(side),
-                     n = is_solid ? kSolidShapes[0].sides.size() : deck_.elements[e].corners();
+                     n = is_cell ? solid_shape(shape).sides.size() : corners_of(shape);
         if (k >= n || n < 3) in_.fail_at(s.line, "an element has no side {}", s.label);
         std::vector<int> nodes = {v[k % v.size()], v[(k + 1) % n]}, other = {nodes[1], nodes[0]};
-        if (!is_solid && v.size() == 8) nodes.push_back(v[4 + k]);
-        if (is_solid) {
-          std::array<int, 4> quad = Solid{kSolidShapes.data(), v}.side(side);
-          std::ranges::rotate(quad, std::ranges::min_element(quad));
-          nodes.assign(quad.begin(), quad.end());
-          other = {nodes[0], nodes[3], nodes[2], nodes[1]};
+        if (!is_cell && v.size() == 8) nodes.push_back(v[4 + k]);
+        if (is_cell) {
+          const std::array<int, 4> face = Solid{&solid_shape(shape), v}.side(side);
+          nodes.assign(face.begin(), face.end() - (face[3] < 0 ? 1 : 0));
+          std::ranges::rotate(nodes, std::ranges::min_element(nodes));
+          other = nodes;
+          std::reverse(other.begin() + 1, other.end());
         }
-        if (names_of.contains(other)) nodes = other;  // of a neighbor
-        std::vector<std::string>& names = names_of[nodes];
+        const int dim = is_cell ? 2 : 1;
+        if (names_of.contains({dim, other})) nodes = other;  // of a neighbor
+        std::vector<std::string>& names = names_of[{dim, nodes}];
         if (std::find(names.begin(), names.end(), s.surface) == names.end()) names.push_back(s.surface);
       }
     }
     std::map<std::pair<int, std::vector<std::string>>, int> index;
-    for (const auto& [nodes, names] : names_of) {
-      const int corners = nodes.size() == 4 ? 4 : 2, dim = dimension_of(corners);
+    for (const auto& [key, names] : names_of) {
+      const auto& [dim, nodes] = key;
       std::vector<Entity>& entities = entities_of(mesh_, dim);
       const auto [it, is_new] = index.emplace(std::pair{dim, names}, static_cast<int>(entities.size()));
       if (is_new) entities.push_back({it->second + 1, names});
       if (dim == 1) add_line(mesh_, nodes, it->second);
-      if (dim == 2) add_element(mesh_, corners, nodes, it->second);
+      if (dim == 2) add_element(mesh_, static_cast<int>(nodes.size()), nodes, it->second);
     }
   }
 

@@ -315,6 +315,29 @@ class MfemReader {
   std::vector<char> is_placed_;
 };
 
+/// Writes the places of vertices, or of the nodes of curved quads.
+void write_places(TextWriter& out, const Mesh& mesh, const std::vector<int>& vertex, int n_vertices) {
+  const int space = is_planar(mesh) ? 2 : 3;
+  const auto write_place = [&](const Vec3& p) {
+    out << p.x << ' ' << p.y;
+    if (space == 3) out << ' ' << p.z;
+    out << '\n';
+  };
+  out << "\nvertices\n" << n_vertices << '\n';
+  if (mesh.order == 1) {
+    out << space << '\n';
+    for (std::size_t i = 0; i < vertex.size(); ++i)
+      if (vertex[i] >= 0) write_place(mesh.points[i]);
+  } else {
+    // Closed uniform points (type 4), as ours; the space knows no common nodes, but the places are the
+    // same.
+    out << "\nnodes\nFiniteElementSpace\nFiniteElementCollection: L2_T4_2D_P" << mesh.order
+        << "\nVDim: " << space << "\nOrdering: 1\n\n";
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+      for (const int v : nodes_of_quad(mesh, q)) write_place(mesh.points[v]);
+  }
+}
+
 /// MFEM's own format (1.0): attributes are the numbers of names, which comments tell.
 void write_mfem(const std::filesystem::path& path, const Mesh& mesh) {
   const auto row = static_cast<std::size_t>(mesh.order) + 1;
@@ -322,56 +345,55 @@ void write_mfem(const std::filesystem::path& path, const Mesh& mesh) {
                INT_MAX);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   const CellSides sides(mesh);
-  const std::vector<int> attribute = group_numbers(mesh, groups, 2);
-  const std::vector<int> of_lines = group_numbers(mesh, groups, 1);
-  const int dim = is_planar(mesh) ? 2 : 3;
-  std::vector<std::size_t> boundary;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    if (sides.at(static_cast<int>(l)).size() == 1) boundary.push_back(l);
+  const std::vector<CellBlock> blocks = cell_blocks(mesh);
+  const int dim = dimension_of(mesh);
+  const std::vector<int> attribute = group_numbers(mesh, groups, dim);
+  const std::vector<int> of_sides = group_numbers(mesh, groups, dim - 1);
+  /// Calls f(cells, i) for each element of a dimension.
+  const auto for_each = [&](int dimension, const auto& f) {
+    for (const CellBlock& cells : blocks)
+      for (std::size_t i = 0; i < cells.size() && cells.dim == dimension; ++i) f(cells, i);
+  };
+  const auto corners = [](const CellBlock& cells, std::size_t i) {
+    std::vector<int> nodes = cells.nodes(i);
+    nodes.resize(static_cast<std::size_t>(corners_of(cells.shape)));
+    return nodes;
+  };
+  const auto is_outside = [&](const CellBlock& cells, std::size_t i) {
+    return sides.at(static_cast<int>(cells.first + i)).size() == 1;
+  };
   // Curved meshes list the nodes of each element; vertices are the corners alone.
   std::vector<int> vertex(mesh.points.size(), -1);
-  int n_vertices = 0;
-  for_each_element(mesh, [&](int, const auto& v) {
-    for (const int i : v) vertex[i] = 0;
+  int n_vertices = 0, n_boundary = 0;
+  for_each(dim, [&](const CellBlock& cells, std::size_t i) {
+    for (const int v : corners(cells, i)) vertex[v] = 0;
   });
   for (int& v : vertex)
     if (v == 0) v = n_vertices++;
-  constexpr int kSegment = 1, kTriangle = 2, kSquare = 3;
+  for_each(dim - 1,
+           [&](const CellBlock& cells, std::size_t i) { n_boundary += is_outside(cells, i) ? 1 : 0; });
+  constexpr std::array<int, kCellShapes> kGeometries = {0, kMfemSegment, kMfemTriangle, kMfemSquare, 5, 6, 7,
+                                                        4};
   write_text_file(path, [&](TextWriter& out) {
-    out << "MFEM mesh v1.0\n\n# quad mesh by Delquad\n";
+    out << "MFEM mesh v1.0\n\n# " << (dim == 3 ? "volume" : "quad") << " mesh by Delquad\n";
     if (!mesh.unit.empty()) out << "# lengths in " << mesh.unit << '\n';
     for (const MeshGroup& group : groups)
-      if (group.dim > 0)
-        out << "# " << (group.dim == 1 ? "boundary " : "") << "attribute " << group.number << ": "
+      if (group.dim >= dim - 1)
+        out << "# " << (group.dim < dim ? "boundary " : "") << "attribute " << group.number << ": "
             << one_line(group.name) << '\n';
-    out << "\ndimension\n2\n\nelements\n" << n_cells(mesh, 2) << '\n';
-    const auto write = [&](int number, int geometry, const auto& nodes) {
-      out << number << ' ' << geometry;
-      for (const int v : nodes) out << ' ' << vertex[v];
+    const auto write = [&](int number, const CellBlock& cells, std::size_t i) {
+      out << number << ' ' << kGeometries[static_cast<std::size_t>(cells.shape)];
+      for (const int v : corners(cells, i)) out << ' ' << vertex[v];
       out << '\n';
     };
-    for_each_element(
-        mesh, [&](int e, const auto& v) { write(attribute[e], v.size() == 3 ? kTriangle : kSquare, v); });
-    out << "\nboundary\n" << boundary.size() << '\n';
-    for (const std::size_t l : boundary) write(of_lines[l], kSegment, mesh.lines[l]);
-    const auto write_place = [&](const Vec3& p) {
-      out << p.x << ' ' << p.y;
-      if (dim == 3) out << ' ' << p.z;
-      out << '\n';
-    };
-    out << "\nvertices\n" << n_vertices << '\n';
-    if (mesh.order == 1) {
-      out << dim << '\n';
-      for (std::size_t i = 0; i < vertex.size(); ++i)
-        if (vertex[i] >= 0) write_place(mesh.points[i]);
-    } else {
-      // Closed uniform points (type 4), as ours; the space knows no common nodes, but the places are the
-      // same.
-      out << "\nnodes\nFiniteElementSpace\nFiniteElementCollection: L2_T4_2D_P" << mesh.order
-          << "\nVDim: " << dim << "\nOrdering: 1\n\n";
-      for (std::size_t q = 0; q < mesh.quads.size(); ++q)
-        for (const int v : nodes_of_quad(mesh, q)) write_place(mesh.points[v]);
-    }
+    out << "\ndimension\n" << dim << "\n\nelements\n" << n_cells(mesh, dim) << '\n';
+    for_each(dim,
+             [&](const CellBlock& cells, std::size_t i) { write(attribute[cells.first + i], cells, i); });
+    out << "\nboundary\n" << n_boundary << '\n';
+    for_each(dim - 1, [&](const CellBlock& cells, std::size_t i) {
+      if (is_outside(cells, i)) write(of_sides[cells.first + i], cells, i);
+    });
+    write_places(out, mesh, vertex, n_vertices);
   });
 }
 
@@ -385,6 +407,7 @@ MeshFormat mfem_format() {
           .read = read_by<read_mfem>,
           .write = write_by<write_mfem>,
           .most_order = kMostOrder,
+          .has_cells = true,
           .names = kAllNames & ~kPointNames};
 }
 

@@ -25,14 +25,15 @@ struct Node {
 
 struct Element {
   long long tag;
-  int n_nodes;                     ///< corners: 2 line, 3 triangle, 4 quad, 8 hexahedron
+  CellShape shape;
   int entity;                      ///< elementary tag
   int physical;                    ///< physical tag (2.2 only), 0: none
   std::array<long long, 8> nodes;  ///< tags of corners
   int line;                        ///< of the file
   int n_further = 0;               ///< further nodes of a curved element
   std::size_t first_further = 0;   ///< index into Contents::further_nodes
-  int dim() const { return dimension_of(n_nodes); }
+  int dim() const { return dimension_of(shape); }
+  int n_nodes() const { return corners_of(shape); }
 };
 
 /// A point element.
@@ -70,7 +71,8 @@ struct Contents {
 
 /// Tags of the points and elements of a mesh.
 struct MeshTags {
-  std::vector<long long> points, triangles, quads, hexahedra;
+  std::vector<long long> points;
+  std::array<std::vector<long long>, kCellShapes> elements;  ///< by shape
 };
 
 /// Returns the sections of a file [Gmsh reference manual, "MSH file format" and "Legacy formats"]; views only

@@ -21,8 +21,8 @@ namespace {
 std::vector<std::vector<int>> groups_of_elements(const std::vector<Element>& elements,
                                                  std::vector<char>& repeats) {
   std::vector<Element> keys = elements;
-  for (Element& e : keys) std::sort(e.nodes.begin(), e.nodes.begin() + e.n_nodes);
-  const auto key = [&](int i) { return std::tie(keys[i].n_nodes, keys[i].entity, keys[i].nodes); };
+  for (Element& e : keys) std::sort(e.nodes.begin(), e.nodes.begin() + e.n_nodes());
+  const auto key = [&](int i) { return std::tie(keys[i].shape, keys[i].entity, keys[i].nodes); };
   std::vector<int> order(elements.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, [&](int i, int j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
@@ -115,7 +115,7 @@ std::vector<int> find_nodes(Contents& contents, const TextScanner& scanner) {
     is_needed[i] = 0;
   };
   for (Element& e : contents.elements) {
-    for (int k = 0; k < e.n_nodes; ++k) find(e.nodes[k], e.line);
+    for (int k = 0; k < e.n_nodes(); ++k) find(e.nodes[k], e.line);
     for (int k = 0; k < e.n_further; ++k)
       find(contents.further_nodes[e.first_further + static_cast<size_t>(k)], e.line);
   }
@@ -129,15 +129,12 @@ void add_elements(const Contents& contents, const std::vector<int>& new_index, c
   std::vector<int> nodes;
   for (const Element& e : contents.elements) {
     nodes.clear();
-    for (int k = 0; k < e.n_nodes; ++k) nodes.push_back(new_index[e.nodes[k]]);
+    for (int k = 0; k < e.n_nodes(); ++k) nodes.push_back(new_index[e.nodes[k]]);
     for (int k = 0; k < e.n_further; ++k)
       nodes.push_back(new_index[contents.further_nodes[e.first_further + static_cast<size_t>(k)]]);
-    const std::string wrong = add_element(mesh, e.n_nodes, nodes, entities.index(e.dim(), e.entity));
+    const std::string wrong = add_element(mesh, e.shape, nodes, entities.index(e.dim(), e.entity));
     if (!wrong.empty()) scanner.fail_at(e.line, "{}", wrong);
-    if (!tags) continue;
-    if (e.n_nodes == 3) tags->triangles.push_back(e.tag);
-    if (e.n_nodes == 4) tags->quads.push_back(e.tag);
-    if (e.n_nodes == kHexCorners) tags->hexahedra.push_back(e.tag);
+    if (tags) tags->elements[static_cast<size_t>(e.shape)].push_back(e.tag);
   }
 }
 
@@ -193,7 +190,7 @@ void settle_physicals(Contents& contents) {
 }
 
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
-  if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles, quads or hexahedra");
+  if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles, quads or cells");
   if (contents.nodes.empty()) scanner.fail("the file holds no nodes");
   std::ranges::stable_sort(contents.nodes, [](const Node& a, const Node& b) { return a.tag < b.tag; });
   check_tags(contents, scanner);
@@ -231,8 +228,8 @@ Mesh read_msh(const std::filesystem::path& path, DeclaredSurfaces* surfaces, Rea
     notes->push_back(
         "the periodic pairs of the file ($Periodic) are not read: nothing keeps their nodes alike");
   const bool is_curved = std::ranges::any_of(
-      contents.elements, [](const msh::Element& e) { return e.n_nodes == kHexCorners && e.n_further > 0; });
-  if (notes != nullptr && is_curved) notes->push_back(kCornersOfHexahedra);
+      contents.elements, [](const msh::Element& e) { return e.dim() == 3 && e.n_further > 0; });
+  if (notes != nullptr && is_curved) notes->push_back(kCornersOfCells);
   return msh::to_mesh(std::move(contents), scanner);
 }
 

@@ -99,28 +99,32 @@ void reserve(std::vector<T>& items, long long count, const TextScanner& scanner)
   items.reserve(items.size() + std::min(static_cast<size_t>(count), scanner.bytes_left() / kLeastBytes));
 }
 
-/// Nodes of an element.
+/// Shape and number of all nodes of an element.
 struct NodeCount {
-  int corners, all;
+  CellShape shape;
+  int all;
+  int corners() const { return corners_of(shape); }
 };
 
-/// Only points, lines, triangles, quads and hexahedra are known, straight ones and curved ones but triangles.
+/// Straight and curved elements are known, but no curved triangles.
 NodeCount nodes_of_type(int type, const TextScanner& scanner) {
+  using enum CellShape;
   static const std::map<int, NodeCount> counts = {
-      {15, {1, 1}}, {1, {2, 2}},  {8, {2, 3}},   {26, {2, 4}},  {27, {2, 5}}, {2, {3, 3}},   {3, {4, 4}},
-      {16, {4, 8}}, {10, {4, 9}}, {36, {4, 16}}, {37, {4, 25}}, {5, {8, 8}},  {17, {8, 20}}, {12, {8, 27}}};
+      {15, {kPoint, 1}},       {1, {kLine, 2}},         {8, {kLine, 3}},      {26, {kLine, 4}},
+      {27, {kLine, 5}},        {2, {kTriangle, 3}},     {3, {kQuad, 4}},      {16, {kQuad, 8}},
+      {10, {kQuad, 9}},        {36, {kQuad, 16}},       {37, {kQuad, 25}},    {5, {kHexahedron, 8}},
+      {17, {kHexahedron, 20}}, {12, {kHexahedron, 27}}, {6, {kPrism, 6}},     {18, {kPrism, 15}},
+      {13, {kPrism, 18}},      {7, {kPyramid, 5}},      {19, {kPyramid, 13}}, {14, {kPyramid, 14}},
+      {4, {kTetrahedron, 4}},  {11, {kTetrahedron, 10}}};
   if (const auto known = counts.find(type); known != counts.end()) return known->second;
-  static const std::map<int, const char*> names = {{4, "tetrahedron"},
-                                                   {6, "prism"},
-                                                   {7, "pyramid"},
-                                                   {9, "second-order triangle"},
+  static const std::map<int, const char*> names = {{9, "second-order triangle"},
                                                    {20, "third-order triangle"},
                                                    {21, "third-order triangle"},
                                                    {39, "third-order quad without inner nodes"}};
   const auto name = names.find(type);
   scanner.fail(
       "element type {}{}: expected points (15), lines (1, 8, 26, 27), triangles (2), quads (3, 10, 16, 36, "
-      "37) or hexahedra (5, 12, 17)",
+      "37), hexahedra (5, 12, 17), prisms (6, 13, 18), pyramids (7, 14, 19) or tetrahedra (4, 11)",
       type, name == names.end() ? "" : fmt::format(" ({})", name->second));
 }
 
@@ -403,8 +407,8 @@ class SectionReader {
         numbers_.integer("the entity of an element block", -kLargestEntityTag, kLargestEntityTag));
     const NodeCount nodes =
         nodes_of_type(static_cast<int>(numbers_.integer("an element type", 1, INT_MAX)), in_);
-    if (dim != dimension_of(nodes.corners)) {
-      in_.fail("elements of {} corners in a block of dimension {}", nodes.corners, dim);
+    if (dim != dimension_of(nodes.shape)) {
+      in_.fail("elements of {} corners in a block of dimension {}", nodes.corners(), dim);
     }
     const long long count = numbers_.size("the number of elements in the block", 0, INT_MAX);
     if (count > most) in_.fail("more elements than announced");
@@ -449,11 +453,11 @@ class SectionReader {
   }
 
   void element(long long tag, const NodeCount& nodes, int entity, int physical) {
-    Element e{tag, nodes.corners, entity, physical, {}, in_.line(), nodes.all - nodes.corners};
+    Element e{tag, nodes.shape, entity, physical, {}, in_.line(), nodes.all - nodes.corners()};
     e.first_further = contents_.further_nodes.size();
-    for (int k = 0; k < nodes.corners; ++k) e.nodes[k] = node_tag();
+    for (int k = 0; k < nodes.corners(); ++k) e.nodes[k] = node_tag();
     for (int k = 0; k < e.n_further; ++k) contents_.further_nodes.push_back(node_tag());
-    if (nodes.corners > 1)
+    if (nodes.shape != CellShape::kPoint)
       contents_.elements.push_back(e);
     else
       contents_.points.push_back({entity, physical, e.nodes[0], e.line});

@@ -150,9 +150,9 @@ MshGroups number_groups(std::vector<MshBlock>& blocks) {
   return groups;
 }
 
-void write_head(MshNumbers& out, bool binary, const MshGroups& groups) {
+void write_head(MshNumbers& out, const char* version, bool binary, const MshGroups& groups) {
   out.line("$MeshFormat");
-  out.line(binary ? "4.1 1 8" : "4.1 0 8");
+  out.line(version + std::string(binary ? " 1 8" : " 0 8"));
   if (binary) {
     out.integer(1);
     out.line("");
@@ -198,11 +198,16 @@ void write_nodes(MshNumbers& out, const std::vector<Vec3>& points, const std::ve
   out.end_section("$EndNodes");
 }
 
-void write_elements(MshNumbers& out, const std::vector<MshBlock>& blocks) {
+int type_of(const CellBlock& cells) {
   using enum CellShape;
   constexpr CellCode<int> kTypes[] = {
-      {kPoint, 1, 15}, {kLine, 2, 1},  {kLine, 3, 8},  {kLine, 4, 26},  {kLine, 5, 27},  {kTriangle, 3, 2},
-      {kQuad, 4, 3},   {kQuad, 8, 16}, {kQuad, 9, 10}, {kQuad, 16, 36}, {kQuad, 25, 37}, {kHexahedron, 8, 5}};
+      {kPoint, 1, 15},   {kLine, 2, 1},       {kLine, 3, 8},  {kLine, 4, 26},   {kLine, 5, 27},
+      {kTriangle, 3, 2}, {kQuad, 4, 3},       {kQuad, 8, 16}, {kQuad, 9, 10},   {kQuad, 16, 36},
+      {kQuad, 25, 37},   {kHexahedron, 8, 5}, {kPrism, 6, 6}, {kPyramid, 5, 7}, {kTetrahedron, 4, 4}};
+  return code_of(cells, kTypes);
+}
+
+void write_elements(MshNumbers& out, const std::vector<MshBlock>& blocks) {
   size_t n_blocks = 0, count = 0;
   for (const MshBlock& block : blocks) {
     n_blocks += block.elements.size();
@@ -213,11 +218,41 @@ void write_elements(MshNumbers& out, const std::vector<MshBlock>& blocks) {
   size_t tag = 0;
   for (const MshBlock& block : blocks)
     for (const auto& [cells, items] : block.elements) {
-      out.integer(block.dim).integer(block.entity->tag).integer(code_of(*cells, kTypes));
+      out.integer(block.dim).integer(block.entity->tag).integer(type_of(*cells));
       out.size(items.size()).end_line();
       for (const size_t i : items) {
         out.size(++tag);
         for (const int v : cells->nodes(i)) out.size(v + 1);
+        out.end_line();
+      }
+    }
+  out.end_section("$EndElements");
+}
+
+/// Nodes and elements of format 2.2, which has no entities: each element has the tags of its group and its
+/// entity.
+void write_contents_22(MshNumbers& out, bool binary, const std::vector<Vec3>& points,
+                       const std::vector<MshBlock>& blocks) {
+  size_t n_nodes = 0, n_elements = 0;
+  for (const MshBlock& block : blocks) {
+    n_nodes += block.nodes.size();
+    for (const auto& [cells, items] : block.elements) n_elements += items.size();
+  }
+  out.line("$Nodes\n" + std::to_string(n_nodes));
+  for (const MshBlock& block : blocks)
+    for (const int i : block.nodes) out.integer(i + 1).point(points[i]).end_line();
+  out.end_section("$EndNodes");
+  out.line("$Elements\n" + std::to_string(n_elements));
+  int tag = 0;
+  for (const MshBlock& block : blocks)
+    for (const auto& [cells, items] : block.elements) {
+      const int type = type_of(*cells);
+      if (binary) out.integer(type).integer(static_cast<int>(items.size())).integer(2);
+      for (const size_t i : items) {
+        out.integer(++tag);
+        if (!binary) out.integer(type).integer(2);
+        out.integer(block.group_tag).integer(block.entity->tag);
+        for (const int v : cells->nodes(i)) out.integer(v + 1);
         out.end_line();
       }
     }
@@ -321,14 +356,18 @@ void write_views(MshNumbers& out, const std::vector<MshBlock>& blocks, const std
   }
 }
 
-void write_blocks(std::ostream& stream, bool binary, const Mesh& mesh, std::vector<MshBlock> blocks,
-                  const std::vector<MeshField>& fields) {
+void write_blocks(std::ostream& stream, bool binary, bool is_22, const Mesh& mesh,
+                  std::vector<MshBlock> blocks, const std::vector<MeshField>& fields) {
   MshNumbers out(stream, binary);
-  write_head(out, binary, number_groups(blocks));
-  write_entities(out, blocks);
-  write_nodes(out, mesh.points, blocks);
-  write_elements(out, blocks);
-  write_periodic(out, mesh, blocks);
+  write_head(out, is_22 ? "2.2" : "4.1", binary, number_groups(blocks));
+  if (is_22) {
+    write_contents_22(out, binary, mesh.points, blocks);
+  } else {
+    write_entities(out, blocks);
+    write_nodes(out, mesh.points, blocks);
+    write_elements(out, blocks);
+    write_periodic(out, mesh, blocks);
+  }
   write_views(out, blocks, fields, dimension_of(mesh));
   out.flush();
   write_more_names(stream, blocks);
@@ -366,7 +405,7 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
     std::map<std::pair<int, int>, std::string> label_of;
     for (const auto& [dim, tag, label] : number_groups(blocks)) label_of[{dim, tag}] = label;
     std::set<UniqueLabels::Key> reported;
-    const std::array kKinds = {"point", "curve", mesh.hexahedra.empty() ? "region" : "face", "volume"};
+    const std::array kKinds = {"point", "curve", is_solid(mesh) ? "face" : "region", "volume"};
     for (const MshBlock& b : blocks)
       if (const std::string& label = label_of.at({b.dim, b.group_tag});
           label != b.group && reported.emplace(b.dim, b.group).second)
@@ -378,26 +417,28 @@ std::vector<std::string> renamed_in_msh(const Mesh& mesh) {
 }  // namespace
 
 void write_msh(std::ostream& stream, const Mesh& mesh, const MshOptions& options,
-               const std::vector<MeshField>& fields) {
+               const std::vector<MeshField>& fields, bool is_22) {
   with_blocks(mesh, options.curves, [&](std::vector<MshBlock> blocks) {
-    write_blocks(stream, options.binary, mesh, std::move(blocks), fields);
+    write_blocks(stream, options.binary, is_22, mesh, std::move(blocks), fields);
   });
 }
 
 void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOptions& options) {
   std::vector<MeshField> fields;
   if (!mesh.thickness.empty()) fields.push_back({"thickness", false, 1, mesh.thickness});
-  write_file_atomically(path, [&](std::ostream& stream) { write_msh(stream, mesh, options, fields); });
+  write_file_atomically(path, [&](std::ostream& stream) {
+    write_msh(stream, mesh, options, fields, path.extension() == ".msh2");
+  });
 }
 
 MeshFormat msh_format() {
-  return {.extensions = {".msh"},
-          .description = "Gmsh 2.2 and 4.1, text or bytes",
+  return {.extensions = {".msh", ".msh2"},
+          .description = "Gmsh 4.1, .msh2: 2.2; text or bytes",
           .read = [](const std::filesystem::path& path, ReadNotes* notes,
                      Strays) { return read_msh(path, nullptr, notes); },
           .write = write_msh,
           .most_order = kMostOrder,
-          .has_hexahedra = true,
+          .has_cells = true,
           .eight_nodes = EightNodes::kOnRequest,
           .has_binary = true,
           .renamed = renamed_in_msh,

@@ -21,7 +21,7 @@ namespace {
 /// Comments that tell names: a property for each group of the highest dimension, SETs of the nodes of others.
 void write_names(TextWriter& out, const Mesh& mesh, const std::vector<MeshGroup>& groups) {
   constexpr const char* kKinds[] = {"point ", "curve ", "face "};
-  out << (mesh.hexahedra.empty() ? "$ quad mesh by Delquad\n" : "$ mesh of hexahedra by Delquad\n");
+  out << (is_solid(mesh) ? "$ volume mesh by Delquad\n" : "$ quad mesh by Delquad\n");
   if (!mesh.unit.empty()) out << "$ lengths in " << mesh.unit << '\n';
   std::size_t set = 0;
   for (const MeshGroup& group : groups) {
@@ -54,12 +54,14 @@ void write_shells(TextWriter& out, const Mesh& mesh, std::vector<int>& property)
                      {std::to_string(number), "1", nastran_number(std::stod(key.second)), "1", "", "1"});
 }
 
-/// Writes bulk data: CHEXA, or CQUAD4, CQUAD8 and CTRIA3, with a property for each name of elements. SETs
-/// hold the nodes of other names; comments tell the names.
+/// Writes bulk data: CHEXA, CPENTA, CPYRAM and CTETRA, or CQUAD4, CQUAD8 and CTRIA3, with a property for each
+/// name of elements. SETs hold the nodes of other names; comments tell the names.
 void write_nastran(const std::filesystem::path& path, const Mesh& mesh) {
   using enum CellShape;
-  constexpr CellCode<const char*> kCards[] = {
-      {kTriangle, 3, "CTRIA3"}, {kQuad, 4, "CQUAD4"}, {kQuad, 8, "CQUAD8"}, {kHexahedron, 8, "CHEXA"}};
+  constexpr CellCode<const char*> kCards[] = {{kTriangle, 3, "CTRIA3"},   {kQuad, 4, "CQUAD4"},
+                                              {kQuad, 8, "CQUAD8"},       {kHexahedron, 8, "CHEXA"},
+                                              {kPrism, 6, "CPENTA"},      {kPyramid, 5, "CPYRAM"},
+                                              {kTetrahedron, 4, "CTETRA"}};
   require_numbers(path, "Nastran", mesh, kMostNastran);
   const std::vector<MeshGroup> groups = mesh_groups(mesh, {one_line_label});
   std::vector<int> property = group_numbers(mesh, groups, dimension_of(mesh));
@@ -98,7 +100,7 @@ MeshFormat nastran_format() {
               },
           .write = write_by<write_nastran>,
           .most_order = 2,
-          .has_hexahedra = true,
+          .has_cells = true,
           .has_shells = true,
           .eight_nodes = EightNodes::kAlways,
           .read_given = [](const std::filesystem::path& path,

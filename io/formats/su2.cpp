@@ -36,8 +36,9 @@ void write_periodic(TextWriter& out, const Mesh& mesh, const std::vector<MeshGro
 /// Writes elements, and a marker for each group of sides around the mesh: the solver takes no sides inside.
 void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
   using enum CellShape;
-  constexpr CellCode<int> kVtkTypes[] = {
-      {kLine, 2, 3}, {kTriangle, 3, 5}, {kQuad, 4, 9}, {kHexahedron, 8, 12}};
+  constexpr CellCode<int> kVtkTypes[] = {{kLine, 2, 3},        {kTriangle, 3, 5},         {kQuad, 4, 9},
+                                         {kHexahedron, 8, 12}, {kPrism, 6, 13, "021354"}, {kPyramid, 5, 14},
+                                         {kTetrahedron, 4, 10}};
   const int dim = dimension_of(mesh);
   if (dim == 2 && !is_planar(mesh))
     refuse("{}: SU2 computes in planar meshes or in volumes: this is a surface in space [planar-format]",
@@ -50,13 +51,13 @@ void write_su2(const std::filesystem::path& path, const Mesh& mesh) {
   std::erase_if(groups, [](const MeshGroup& group) { return group.items.empty(); });
   const std::vector<CellBlock> blocks = cell_blocks(mesh);
   write_text_file(path, [&](TextWriter& out) {
-    out << "% " << (dim == 3 ? "mesh of hexahedra" : "quad mesh") << " by Delquad\n";
+    out << "% " << (dim == 3 ? "volume mesh" : "quad mesh") << " by Delquad\n";
     if (!mesh.unit.empty()) out << "% lengths in " << mesh.unit << '\n';
     for (const std::string& line : renamed_groups(groups)) out << "% " << line << '\n';
     if (dim == 2) write_periodic(out, mesh, groups);
     const auto write = [&](const CellBlock& cells, std::size_t i) {
       out << code_of(cells, kVtkTypes);
-      for (const int v : cells.nodes(i)) out << ' ' << v;
+      for (const int v : nodes_of(cells, i, kVtkTypes)) out << ' ' << v;
     };
     out << "NDIME= " << dim << "\nNELEM= " << n_cells(mesh, dim) << '\n';
     for (const CellBlock& cells : blocks)
@@ -88,7 +89,7 @@ MeshFormat su2_format() {
   return {.extensions = {".su2"},
           .description = "SU2",
           .write = write_by<write_su2>,
-          .has_hexahedra = true,
+          .has_cells = true,
           .names = kBoundaryNames | kPeriodicPairs};
 }
 

@@ -357,7 +357,7 @@ class ModelParser {
 };
 
 /// Points and triangles: objects that hold one another could ask for any number.
-constexpr double kMost = 5e7;
+constexpr double kMostItems = 5e7;
 
 /// Puts the objects of the build where they belong.
 class Assembly {
@@ -411,8 +411,8 @@ Mesh read_3mf(const std::filesystem::path& path, ReadNotes* notes, Strays strays
   model.parse();
   double size = 0;
   for (const Component& item : model.build) size += model.objects.at(item.object).size;
-  if (size > kMost)
-    refuse("{}: its objects have more than {:.0e} points and triangles", path.string(), kMost);
+  if (size > kMostItems)
+    refuse("{}: its objects have more than {:.0e} points and triangles", path.string(), kMostItems);
   Assembly assembly(model);
   for (const Component& item : model.build) located(path.string(), [&] { assembly.add(item, {}, ""); });
   Mesh mesh = std::move(assembly.mesh);

@@ -33,8 +33,8 @@ class UnvWriter {
 
   void write_elements(const CellBlock& cells, const std::vector<int>& property) {
     using enum CellShape;
-    constexpr CellCode<int> kTypes[] = {
-        {kLine, 2, 11}, {kTriangle, 3, 91}, {kQuad, 4, 94}, {kHexahedron, 8, 115}};
+    constexpr CellCode<int> kTypes[] = {{kLine, 2, 11},        {kTriangle, 3, 91}, {kQuad, 4, 94},
+                                        {kHexahedron, 8, 115}, {kPrism, 6, 112},   {kTetrahedron, 4, 111}};
     if (cells.first == 0) first_[cells.dim] = n_;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       write_numbers({static_cast<int>(++n_), code_of(cells, kTypes), property[cells.first + i], 1, 7,
@@ -80,7 +80,7 @@ class UnvWriter {
       first_{};  ///< elements before the elements of a dimension; nodes have numbers of their own
 };
 
-/// I-DEAS universal: thin shells or bricks, a group for each name.
+/// I-DEAS universal: thin shells or solids, a group for each name.
 void write_unv(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<MeshGroup> groups = mesh_groups(mesh, kUnvLabels);
   write_text_file(path, [&](TextWriter& text) {
@@ -100,7 +100,8 @@ MeshFormat unv_format() {
   return {.extensions = {".unv"},
           .description = "I-DEAS universal: Salome, Elmer, OpenFOAM",
           .write = write_by<write_unv>,
-          .has_hexahedra = true,
+          .has_cells = true,
+          .has_pyramids = false,
           .labels = &kUnvLabels};
 }
 

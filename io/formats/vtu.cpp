@@ -108,9 +108,9 @@ NumbersOfNames points_of_names(const Mesh& mesh) {
 
 void write_with_quality(const std::filesystem::path& path, const Mesh& mesh, const MshOptions&) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (!mesh.hexahedra.empty()) {
+  if (is_solid(mesh)) {
     std::vector<double> jacobian = measure(mesh).jacobian;
-    jacobian.resize(mesh.hexahedra.size() + mesh.quads.size() + mesh.lines.size(), kNone);
+    jacobian.resize(jacobian.size() + n_cells(mesh, 2) + n_cells(mesh, 1), kNone);
     return write_vtu(path, mesh, {{"scaled Jacobian", jacobian}});
   }
   std::vector<double> eta(mesh.lines.size() + mesh.triangles.size(), kNone);
@@ -130,17 +130,20 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
                const std::map<std::string, std::vector<double>>& cell_data,
                const std::vector<MeshField>& fields) {
   using enum CellShape;
-  // VTK's cell types: straight, quadratic and biquadratic, Lagrange.
+  // VTK's cell types: straight, quadratic and biquadratic, Lagrange. The first triangle of a wedge looks
+  // outwards.
   constexpr CellCode<std::uint8_t> kTypes[] = {
-      {kLine, 2, 3},  {kLine, 3, 21}, {kLine, 4, 68},  {kLine, 5, 68},  {kTriangle, 3, 5},   {kQuad, 4, 9},
-      {kQuad, 8, 23}, {kQuad, 9, 28}, {kQuad, 16, 70}, {kQuad, 25, 70}, {kHexahedron, 8, 12}};
-  const bool is_solid = !mesh.hexahedra.empty();
+      {kLine, 2, 3},     {kLine, 3, 21},       {kLine, 4, 68},       {kLine, 5, 68},
+      {kTriangle, 3, 5}, {kQuad, 4, 9},        {kQuad, 8, 23},       {kQuad, 9, 28},
+      {kQuad, 16, 70},   {kQuad, 25, 70},      {kHexahedron, 8, 12}, {kPrism, 6, 13, "021354"},
+      {kPyramid, 5, 14}, {kTetrahedron, 4, 10}};
+  const bool is_volume = is_solid(mesh);
   const std::array<const std::vector<Entity>*, 4> entities = {nullptr, &mesh.curves, &mesh.regions,
                                                               &mesh.volumes};
   VtuContent content{mesh.points, mesh.unit};
-  const std::vector<int> dims = is_solid ? std::vector{3, 2, 1} : std::vector{1, 2};
+  const std::vector<int> dims = is_volume ? std::vector{3, 2, 1} : std::vector{1, 2};
   for (const int dim : dims) {
-    const char* const kind = dim == 1 ? "curve" : dim == 3 ? "volume" : is_solid ? "face" : "region";
+    const char* const kind = dim == 1 ? "curve" : dim == 3 ? "volume" : is_volume ? "face" : "region";
     content.names.emplace_back(kind, tags_of_names(*entities[dim]));
     content.tags.push_back({kind, {}});
   }
@@ -149,7 +152,7 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
   for (const int dim : dims)
     for (const CellBlock& cells : blocks)
       for (size_t i = 0; i < cells.size() && cells.dim == dim; ++i) {
-        content.add(cells.nodes(i), code_of(cells, kTypes));
+        content.add(nodes_of(cells, i, kTypes), code_of(cells, kTypes));
         for (size_t k = 0; k < dims.size(); ++k)
           content.tags[k].second.push_back(dims[k] == dim ? cells.entity(i).tag : 0);
       }
@@ -162,7 +165,7 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh,
   }
   for (MeshField field : fields) {
     if (!field.is_of_points)  // cells of lower dimension have no values
-      field.values.insert(is_solid ? field.values.end() : field.values.begin(),
+      field.values.insert(is_volume ? field.values.end() : field.values.begin(),
                           field.n_components * (content.types.size() - n_cells(mesh, dimension_of(mesh))),
                           std::numeric_limits<double>::quiet_NaN());
     content.fields.push_back(std::move(field));
@@ -177,7 +180,7 @@ MeshFormat vtu_format() {
                      Strays) { return read_vtu(path, notes); },
           .write = write_with_quality,
           .most_order = kMostOrder,
-          .has_hexahedra = true,
+          .has_cells = true,
           .eight_nodes = EightNodes::kOnRequest,
           .names = kAllNames | kFurtherNames};
 }

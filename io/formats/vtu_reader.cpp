@@ -98,9 +98,9 @@ class VtuReader {
     const Tree& grid = child(file, "UnstructuredGrid");
     for (const auto& [name, piece] : grid)
       if (name == "Piece") read_piece(piece);
-    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty() && mesh_.hexahedra.empty())
-      fail("the file holds no lines, triangles, quads or hexahedra");
-    if (notes_ != nullptr && has_curved_hexahedra_) notes_->push_back(kCornersOfHexahedra);
+    if (mesh_.lines.empty() && mesh_.triangles.empty() && mesh_.quads.empty() && !is_solid(mesh_))
+      fail("the file holds no lines, triangles, quads or cells");
+    if (notes_ != nullptr && has_curved_cells_) notes_->push_back(kCornersOfCells);
     for (const auto& [name, data] : grid)
       if (name == "FieldData") read_names(data);
     if (choice_ == nullptr) drop_unused_points(mesh_);
@@ -113,10 +113,9 @@ class VtuReader {
     MeshWithFields result{read(), {}};
     require_own_points(result.mesh, n_points_, path_);
     for (std::size_t k = 0; k < fields_.size(); ++k) {
-      std::vector<double>& values = fields_[k].values;
-      if (!fields_[k].is_of_points && !result.mesh.hexahedra.empty()) values = std::move(of_hexahedra_[k]);
-      if (!result.mesh.hexahedra.empty()) continue;
-      values.insert(values.end(), of_quads_[k].begin(), of_quads_[k].end());
+      for (std::size_t s = 0; s < kCellShapes && !fields_[k].is_of_points; ++s)
+        if (dimension_of(static_cast<CellShape>(s)) == (is_solid(result.mesh) ? 3 : 2))
+          fields_[k].values.insert(fields_[k].values.end(), of_shapes_[k][s].begin(), of_shapes_[k][s].end());
     }
     result.fields = std::move(fields_);
     return result;
@@ -326,16 +325,18 @@ class VtuReader {
           fail("cell {}: there is no point {}", c, corners[k]);
         v.push_back(static_cast<int>(first) + static_cast<int>(corners[k]));
       }
-      const int n_corners = corners_of_type(as_int(types[c]));
-      add_cell(as_int(types[c]), v, n_corners == 0 ? 0 : tags_of[dimension_of(n_corners)][c]);
-      for (size_t k = 0; k < fields.size() && n_corners >= 3; ++k) {
+      begin = offsets[c];
+      const CellType* const type = type_of(as_int(types[c]), v.size());
+      if (type == nullptr) continue;
+      const int dim = dimension_of(type->shape);
+      add_cell(*type, v, tags_of[dim][c]);
+      for (size_t k = 0; k < fields.size() && dim > 1; ++k) {
         if (fields[k].is_of_points) continue;
-        auto& target = n_corners == 3 ? fields_[k].values : n_corners == 4 ? of_quads_[k] : of_hexahedra_[k];
+        auto& target = of_shapes_[k][static_cast<size_t>(type->shape)];
         const auto of_cell =
             fields[k].values.begin() + static_cast<std::ptrdiff_t>(c) * fields[k].n_components;
         target.insert(target.end(), of_cell, of_cell + fields[k].n_components);
       }
-      begin = offsets[c];
     }
     for (size_t k = 0; k < fields.size(); ++k)
       if (fields[k].is_of_points)
@@ -370,8 +371,7 @@ class VtuReader {
     if (fields_.empty() && n_points_ == 0)
       for (const MeshField& field : chosen) {
         fields_.push_back({field.name, field.is_of_points, field.n_components, {}});
-        of_quads_.emplace_back();
-        of_hexahedra_.emplace_back();
+        of_shapes_.emplace_back();
       }
     const auto is_like = [](const MeshField& a, const MeshField& b) {
       return a.name == b.name && a.is_of_points == b.is_of_points && a.n_components == b.n_components;
@@ -397,46 +397,53 @@ class VtuReader {
     return all;
   }
 
-  /// Corners of the cells of VTK that are read; 0: of others.
-  static int corners_of_type(int type) {
-    constexpr std::array kLines = {3, 21, 68};
-    constexpr std::array kQuads = {9, 23, 28, 70};
-    constexpr std::array kHexahedra = {12, 25, 29};
-    constexpr int kTriangle = 5;
-    if (std::ranges::find(kHexahedra, type) != kHexahedra.end()) return kHexCorners;
-    if (std::ranges::find(kLines, type) != kLines.end()) return 2;
-    if (std::ranges::find(kQuads, type) != kQuads.end()) return 4;
-    return type == kTriangle ? 3 : 0;
-  }
+  /// A type of cells and the number of its points; 0: it has several orders.
+  struct CellType {
+    int number;
+    CellShape shape;
+    size_t n_points;
+  };
 
-  void check_cell(int type, int corners, size_t n_points) const {
-    constexpr int kLagrangeLine = 68;
-    static const std::map<int, size_t> points = {{3, 2},  {5, 3},  {9, 4},   {21, 3}, {23, 8},
-                                                 {28, 9}, {12, 8}, {25, 20}, {29, 27}};
-    const int order = corners == 2 ? order_of_line(n_points) : order_of_quad(n_points);
-    const auto given = points.find(type);
-    if (given != points.end() && n_points != given->second)
-      fail("a cell of type {} has {} points: expected {}", type, n_points, given->second);
-    constexpr size_t kEight = 8;
-    if (given == points.end() && (order == 0 || n_points == kEight))
-      fail("a cell of type {} has {} points: expected {}", type, n_points,
-           type == kLagrangeLine ? "2 to 5" : "4, 9, 16 or 25");
-  }
-
-  void add_cell(int type, const std::vector<int>& v, double tag) {
+  /// Null for vertices, which are skipped.
+  const CellType* type_of(int number, size_t n_points) const {
+    using enum CellShape;
+    static constexpr CellType kTypes[] = {
+        {3, kLine, 2},         {21, kLine, 3},        {68, kLine, 0},        {5, kTriangle, 3},
+        {9, kQuad, 4},         {23, kQuad, 8},        {28, kQuad, 9},        {70, kQuad, 0},
+        {12, kHexahedron, 8},  {25, kHexahedron, 20}, {29, kHexahedron, 27}, {13, kPrism, 6},
+        {26, kPrism, 15},      {32, kPrism, 18},      {14, kPyramid, 5},     {27, kPyramid, 13},
+        {10, kTetrahedron, 4}, {24, kTetrahedron, 10}};
     constexpr int kVertex = 1, kPolyVertex = 2;
-    if (type == kVertex || type == kPolyVertex) return;
-    const int corners = corners_of_type(type);
-    if (corners == 0)
-      fail(
-          "a cell of type {}: expected lines (3, 21, 68), triangles (5), quads (9, 23, 28, 70) and hexahedra "
-          "(12, 25, 29)",
-          type);
-    check_cell(type, corners, v.size());
-    has_curved_hexahedra_ |= corners == kHexCorners && v.size() > kHexCorners;
-    const int cell = entity(dimension_of(corners), tag);
-    if (const auto wrong = add_element(mesh_, corners, v, cell, vtk_places); !wrong.empty())
+    if (number == kVertex || number == kPolyVertex) return nullptr;
+    const auto* const type = std::ranges::find(kTypes, number, &CellType::number);
+    if (type == std::end(kTypes))
+      fail("a cell of type {}: expected lines, triangles, quads, tetrahedra, pyramids, wedges or hexahedra",
+           number);
+    if (type->n_points > 0 && n_points != type->n_points)
+      fail("a cell of type {} has {} points: expected {}", number, n_points, type->n_points);
+    constexpr size_t kEight = 8;
+    const int order = type->shape == kLine ? order_of_line(n_points) : order_of_quad(n_points);
+    if (type->n_points == 0 && (order == 0 || n_points == kEight))
+      fail("a cell of type {} has {} points: expected {}", number, n_points,
+           type->shape == kLine ? "2 to 5" : "4, 9, 16 or 25");
+    return type;
+  }
+
+  void add_cell(const CellType& type, std::vector<int>& v, double tag) {
+    has_curved_cells_ |= has_further(type.shape, v.size());
+    if (type.shape == CellShape::kPrism) turn_over(v);
+    const int cell = entity(dimension_of(type.shape), tag);
+    if (const auto wrong = add_element(mesh_, type.shape, v, cell, vtk_places); !wrong.empty())
       fail("{}", wrong);
+  }
+
+  /// In VTK the first triangle of a wedge looks outwards, but many programs write it inwards.
+  void turn_over(std::vector<int>& v) const {
+    const auto at = [&](int k) { return mesh_.points[v[k]]; };
+    const Vec3 up = at(3) + at(4) + at(5) - at(0) - at(1) - at(2);
+    if (dot(cross(at(1) - at(0), at(2) - at(0)), up) > 0) return;
+    std::swap(v[1], v[2]);
+    std::swap(v[4], v[5]);
   }
 
   /// 0, where a file has no tags, is entity 1.
@@ -484,11 +491,11 @@ class VtuReader {
   Mesh mesh_;
   std::map<std::pair<int, int>, int> index_;  // by dimension and tag
   NamedPoints point_names_;
-  const FieldChoice* choice_ = nullptr;  // of fields; null: none are read
-  std::vector<MeshField> fields_;        // triangles among the cells
-  std::vector<std::vector<double>> of_quads_, of_hexahedra_;
+  const FieldChoice* choice_ = nullptr;                                  // of fields; null: none are read
+  std::vector<MeshField> fields_;                                        // without the values of cells
+  std::vector<std::array<std::vector<double>, kCellShapes>> of_shapes_;  // which these are
   ReadNotes* notes_;
-  bool has_curved_hexahedra_ = false;
+  bool has_curved_cells_ = false;
   size_t n_points_ = 0;  // of the file
 };
 

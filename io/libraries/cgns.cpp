@@ -41,8 +41,11 @@ class CgnsFile {
                    bool are_sides) {
     using enum CellShape;
     constexpr CellCode<CGNS_ENUMT(ElementType_t)> kTypes[] = {
-        {kLine, 2, CGNS_ENUMV(BAR_2)},  {kLine, 3, CGNS_ENUMV(BAR_3)},  {kTriangle, 3, CGNS_ENUMV(TRI_3)},
-        {kQuad, 4, CGNS_ENUMV(QUAD_4)}, {kQuad, 9, CGNS_ENUMV(QUAD_9)}, {kHexahedron, 8, CGNS_ENUMV(HEXA_8)}};
+        {kLine, 2, CGNS_ENUMV(BAR_2)},         {kLine, 3, CGNS_ENUMV(BAR_3)},
+        {kTriangle, 3, CGNS_ENUMV(TRI_3)},     {kQuad, 4, CGNS_ENUMV(QUAD_4)},
+        {kQuad, 9, CGNS_ENUMV(QUAD_9)},        {kHexahedron, 8, CGNS_ENUMV(HEXA_8)},
+        {kPrism, 6, CGNS_ENUMV(PENTA_6)},      {kPyramid, 5, CGNS_ENUMV(PYRA_5)},
+        {kTetrahedron, 4, CGNS_ENUMV(TETRA_4)}};
     std::vector<cgsize_t> nodes;
     for (const std::size_t i : items)
       for (const int v : cells.nodes(i)) nodes.push_back(v + 1);
@@ -86,6 +89,15 @@ class CgnsFile {
   cgsize_t next_ = 1;
 };
 
+/// Ends of names, which tell shapes apart that have one name.
+constexpr CellCode<const char*> kSuffixes[] = {{CellShape::kTriangle, 3, "_tri"},
+                                               {CellShape::kQuad, 4, ""},
+                                               {CellShape::kQuad, 9, ""},
+                                               {CellShape::kHexahedron, 8, ""},
+                                               {CellShape::kPrism, 6, "_penta"},
+                                               {CellShape::kPyramid, 5, "_pyra"},
+                                               {CellShape::kTetrahedron, 4, "_tetra"}};
+
 /// CGNS: one zone, a section for each name, boundary conditions on all names below the highest dimension.
 void write_cgns(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<CellBlock> blocks = cell_blocks(mesh);
@@ -96,9 +108,9 @@ void write_cgns(const std::filesystem::path& path, const Mesh& mesh) {
       if (group.dim == 0) file.put_points(group.label, group.items);
       for (const CellBlock& cells : blocks) {
         const std::vector<std::size_t> items = items_in_block(group, cells);
-        const bool is_mixed = cells.shape == CellShape::kTriangle && items.size() < group.items.size();
+        const bool is_mixed = items.size() < group.items.size();
         if (!items.empty())
-          file.put_section(is_mixed ? group.label + "_tri" : group.label, cells, items,
+          file.put_section(group.label + (is_mixed ? code_of(cells, kSuffixes) : ""), cells, items,
                            group.dim < dimension_of(mesh));
       }
     }

@@ -25,7 +25,14 @@ namespace delquad {
 namespace {
 
 constexpr int kExodusNameLength = 80;
-constexpr std::array kSideOf = {5, 6, 1, 2, 3, 4};  // of Abaqus's S1, S2, ...
+/// The number of a side: the last ones are those that are Abaqus's first, one or two opposite ones.
+int exodus_side(const SolidShape& shape, int side) {
+  const int n = static_cast<int>(shape.sides.size()), n_last = shape.n_corners > 5 ? 2 : 1;
+  return (side + n - n_last) % n + 1;
+}
+/// Ends of names of blocks, which tell shapes apart that have one name.
+constexpr std::array<const char*, kCellShapes> kSuffixes = {"", "",        "",          "_quads",
+                                                            "", "_prisms", "_pyramids", "_tetrahedra"};
 
 /// A file that is being written.
 class ExodusFile {
@@ -125,7 +132,7 @@ class ExodusWriter {
     const auto n_sets = [&](int most) {
       return std::ranges::count_if(groups_, [&](const MeshGroup& g) { return g.dim <= most; });
     };
-    file_.put_head(dim_ == 3 ? "Mesh of hexahedra by Delquad" : "Quad mesh by Delquad",
+    file_.put_head(dim_ == 3 ? "Volume mesh by Delquad" : "Quad mesh by Delquad",
                    dim_ == 2 && is_planar(mesh_) ? 2 : 3, mesh_.points, number_of_.size(), blocks_.size(),
                    n_sets(dim_ - 1), n_sets(dim_ - 1) - n_sets(dim_ - 2));
     write_blocks();
@@ -141,7 +148,8 @@ class ExodusWriter {
         if (group.dim != dim_) continue;
         ExodusBlock block{group.label, &cells, items_in_block(group, cells)};
         if (block.items.empty()) continue;
-        if (!blocks_.empty() && blocks_.back().name == block.name) block.name += "_quads";
+        if (std::ranges::count(blocks_, block.name, &ExodusBlock::name) > 0)
+          block.name += kSuffixes[static_cast<std::size_t>(cells.shape)];
         for (const std::size_t i : block.items) number_of_[cells.first + i] = ++n;
         blocks_.push_back(std::move(block));
       }
@@ -150,7 +158,8 @@ class ExodusWriter {
   void write_blocks() {
     using enum CellShape;
     constexpr CellCode<const char*> kTypes[] = {
-        {kTriangle, 3, "TRI3"}, {kQuad, 4, "QUAD4"}, {kQuad, 9, "QUAD9"}, {kHexahedron, 8, "HEX8"}};
+        {kTriangle, 3, "TRI3"}, {kQuad, 4, "QUAD4"},      {kQuad, 9, "QUAD9"},       {kHexahedron, 8, "HEX8"},
+        {kPrism, 6, "WEDGE"},   {kPyramid, 5, "PYRAMID"}, {kTetrahedron, 4, "TETRA"}};
     for (const ExodusBlock& block : blocks_) {
       std::vector<int> nodes;
       for (const std::size_t i : block.items)
@@ -170,7 +179,7 @@ class ExodusWriter {
       for (const int i : group.items)
         for (const auto& [element, side] : sides.at(i)) {
           elements.push_back(number_of_[element]);
-          which.push_back(dim_ == 3 ? kSideOf[side] : side + 1);
+          which.push_back(dim_ == 3 ? exodus_side(*solid_at(mesh_, element).shape, side) : side + 1);
         }
       file_.put_side_set(group.label, elements, which);
     }
@@ -193,14 +202,19 @@ void write_exodus(const std::filesystem::path& path, const Mesh& mesh) {
   });
 }
 
-/// Types of elements, which begin so: how many nodes they have, and corners.
+/// Types of elements, which begin so, with their number of nodes.
 struct ExodusType {
   std::string_view name;
-  int n_nodes, corners;
+  int n_nodes;
+  CellShape shape;
 };
-constexpr ExodusType kTypesToRead[] = {{"TRI", 3, 3},  {"SHELL", 3, 3}, {"QUAD", 4, 4},  {"QUAD", 8, 4},
-                                       {"QUAD", 9, 4}, {"SHELL", 4, 4}, {"SHELL", 8, 4}, {"SHELL", 9, 4},
-                                       {"HEX", 8, 8},  {"HEX", 20, 8},  {"HEX", 27, 8}};
+using enum CellShape;
+constexpr ExodusType kTypesToRead[] = {
+    {"TRI", 3, kTriangle},    {"SHELL", 3, kTriangle},  {"QUAD", 4, kQuad},        {"QUAD", 8, kQuad},
+    {"QUAD", 9, kQuad},       {"SHELL", 4, kQuad},      {"SHELL", 8, kQuad},       {"SHELL", 9, kQuad},
+    {"HEX", 8, kHexahedron},  {"HEX", 20, kHexahedron}, {"HEX", 27, kHexahedron},  {"WEDGE", 6, kPrism},
+    {"WEDGE", 15, kPrism},    {"PYRAMID", 5, kPyramid}, {"PYRAMID", 13, kPyramid}, {"TET", 4, kTetrahedron},
+    {"TET", 10, kTetrahedron}};
 
 class ExodusReader {
  public:
@@ -218,8 +232,8 @@ class ExodusReader {
     read_points();
     read_blocks();
     if (n_cells(mesh_, 2) + n_cells(mesh_, 3) == 0)
-      refuse("{}: the file holds no triangles, quads or hexahedra", path_.string());
-    if (is_curved_ && notes_ != nullptr) notes_->push_back(kCornersOfHexahedra);
+      refuse("{}: the file holds no triangles, quads or cells", path_.string());
+    if (is_curved_ && notes_ != nullptr) notes_->push_back(kCornersOfCells);
     read_side_sets();
     read_node_sets();
     take_numbers(mesh_);
@@ -297,7 +311,8 @@ class ExodusReader {
       read.nodes.resize(static_cast<std::size_t>(block.num_entry) * read.n_nodes);
       if (!read.nodes.empty())
         check(ex_get_conn(file_, EX_ELEM_BLOCK, id, read.nodes.data(), nullptr, nullptr), "elements");
-      if (name == before + "_quads") name = before;  // as the writer parts triangles and quads
+      for (const std::string suffix : kSuffixes)  // as the writer parts shapes
+        if (!suffix.empty() && name == before + suffix) name = before;
       before = name;
       add(read, name, id, static_cast<std::size_t>(block.num_entry));
     }
@@ -310,10 +325,10 @@ class ExodusReader {
     for (std::size_t i = 0; i < n_elements; ++i) {
       elements_.emplace_back(blocks_.size() - 1, i);
       if (added.type == nullptr) continue;
-      const int corners = added.type->corners;
-      is_curved_ |= corners == kHexCorners && added.n_nodes > kHexCorners;
+      const CellShape shape = added.type->shape;
+      is_curved_ |= has_further(shape, added.n_nodes);
       if (const std::string wrong =
-              add_element(mesh_, corners, nodes_of(added, i), entity(dimension_of(corners), name, id));
+              add_element(mesh_, shape, nodes_of(added, i), entity(dimension_of(shape), name, id));
           !wrong.empty())
         refuse("{}: block {}: {}", path_.string(), name, wrong);
     }
@@ -323,7 +338,7 @@ class ExodusReader {
     return std::span(block.nodes).subspan(i * block.n_nodes, block.n_nodes);
   }
 
-  /// Sides of triangles and quads become lines, sides of hexahedra quads.
+  /// Sides of triangles and quads become lines, sides of cells faces.
   void read_side_sets() {
     for (const auto& [id, name] : list(EX_SIDE_SET, head_.num_side_sets)) {
       side_sets_.insert(name);
@@ -335,9 +350,9 @@ class ExodusReader {
         std::vector<int> nodes = nodes_of_side(blocks_[b], e, sides[i]), key = nodes;
         std::ranges::sort(key);
         if (nodes.empty() || !done.insert(key).second) continue;
-        const int corners = blocks_[b].type->corners == kHexCorners ? 4 : 2;
-        if (const std::string wrong =
-                add_element(mesh_, corners, nodes, entity(dimension_of(corners), name, id));
+        const bool is_face = dimension_of(blocks_[b].type->shape) == 3;
+        if (const std::string wrong = add_element(mesh_, is_face ? static_cast<int>(nodes.size()) : 2, nodes,
+                                                  entity(is_face ? 2 : 1, name, id));
             !wrong.empty())
           refuse("{}: side set {}: {}", path_.string(), name, wrong);
       }
@@ -347,13 +362,14 @@ class ExodusReader {
   /// None for the top and the bottom of a shell, which are its sides 1 and 2.
   std::vector<int> nodes_of_side(const Block& block, std::size_t element, int number) const {
     const std::span<const int> v = nodes_of(block, element);
-    const auto n = static_cast<std::size_t>(block.type->corners);
-    if (n == kHexCorners) {
-      const auto side = static_cast<int>(
-          std::ranges::find(kSideOf, static_cast<int>(index(number, kSideOf.size(), "side")) + 1) -
-          kSideOf.begin());
-      const auto nodes = Solid{kSolidShapes.data(), v}.side(side);
-      return {nodes.begin(), nodes.end()};
+    const auto n = static_cast<std::size_t>(corners_of(block.type->shape));
+    if (dimension_of(block.type->shape) == 3) {
+      const SolidShape& shape = solid_shape(block.type->shape);
+      index(number, shape.sides.size(), "side");
+      int side = 0;
+      while (exodus_side(shape, side) != number) ++side;
+      const auto nodes = Solid{&shape, v}.side(side);
+      return {nodes.begin(), nodes.end() - (nodes[3] < 0 ? 1 : 0)};
     }
     if (block.type->name == "SHELL" && number <= 2) return {};
     const std::size_t k = index(block.type->name == "SHELL" ? number - 2 : number, n, "side");

@@ -35,7 +35,7 @@ class MedFile {
       units += padded(mesh_.unit, MED_SNAME_SIZE);
     }
     check(MEDmeshCr(file_, kMedMesh, dimensions, dim, MED_UNSTRUCTURED_MESH,
-                    dim == 3 ? "Mesh of hexahedra by Delquad" : "Quad mesh by Delquad", "", MED_SORT_DTIT,
+                    dim == 3 ? "Volume mesh by Delquad" : "Quad mesh by Delquad", "", MED_SORT_DTIT,
                     MED_CARTESIAN,
                     axes.substr(0, MED_SNAME_SIZE * static_cast<std::size_t>(dimensions)).c_str(),
                     units.substr(0, MED_SNAME_SIZE * static_cast<std::size_t>(dimensions)).c_str()),
@@ -55,18 +55,22 @@ class MedFile {
   /// Writes the elements of a block that have a group.
   void put_elements(const CellBlock& cells) {
     using enum CellShape;
-    constexpr CellCode<med_geometry_type> kTypes[] = {{kLine, 2, MED_SEG2},      {kLine, 3, MED_SEG3},
-                                                      {kTriangle, 3, MED_TRIA3}, {kQuad, 4, MED_QUAD4},
-                                                      {kQuad, 9, MED_QUAD9},     {kHexahedron, 8, MED_HEXA8}};
+    // The first side of a cell is counterclockwise seen from outside.
+    constexpr CellCode<med_geometry_type> kTypes[] = {{kLine, 2, MED_SEG2},
+                                                      {kLine, 3, MED_SEG3},
+                                                      {kTriangle, 3, MED_TRIA3},
+                                                      {kQuad, 4, MED_QUAD4},
+                                                      {kQuad, 9, MED_QUAD9},
+                                                      {kHexahedron, 8, MED_HEXA8, "03214765"},
+                                                      {kPrism, 6, MED_PENTA6, "021354"},
+                                                      {kPyramid, 5, MED_PYRA5, "03214"},
+                                                      {kTetrahedron, 4, MED_TETRA4, "0213"}};
     const std::vector<med_int> of_all = families_of(cells.dim);
     std::vector<med_int> nodes, families;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (of_all[cells.first + i] == 0) continue;
       families.push_back(of_all[cells.first + i]);
-      std::vector<int> v = cells.nodes(i);
-      // The first side counterclockwise seen from outside.
-      if (cells.shape == kHexahedron) v = {v[0], v[3], v[2], v[1], v[4], v[7], v[6], v[5]};
-      for (const int node : v) nodes.push_back(node + 1);
+      for (const int node : nodes_of(cells, i, kTypes)) nodes.push_back(node + 1);
     }
     if (families.empty()) return;
     const med_geometry_type type = code_of(cells, kTypes);

@@ -139,19 +139,25 @@ void define_mesh(py::module_& m) {
       .def_property_readonly("quad_region", view_of(&Mesh::quad_region), "index into regions for each quad")
       .def_property_readonly("thickness", view_of(&Mesh::thickness),
                              "of the shell, for each triangle, then each quad; empty: not known")
-      .def_property_readonly("quad_face", view_of(&Mesh::quad_region), "the same beside hexahedra")
+      .def_property_readonly("quad_face", view_of(&Mesh::quad_region), "the same beside cells")
       .def_property_readonly("hexahedra", view_of(&Mesh::hexahedra), "(n, 8) indices of points")
+      .def_property_readonly("prisms", view_of(&Mesh::prisms), "(n, 6) indices of points")
+      .def_property_readonly("pyramids", view_of(&Mesh::pyramids), "(n, 5) indices of points")
+      .def_property_readonly("tetrahedra", view_of(&Mesh::tetrahedra), "(n, 4) indices of points")
       .def_property_readonly("hex_volume", view_of(&Mesh::hex_volume),
                              "index into volumes for each hexahedron")
+      .def_property_readonly("prism_volume", view_of(&Mesh::prism_volume), "the same for prisms")
+      .def_property_readonly("pyramid_volume", view_of(&Mesh::pyramid_volume), "the same for pyramids")
+      .def_property_readonly("tet_volume", view_of(&Mesh::tet_volume), "the same for tetrahedra")
       .def_property_readonly(
-          "volume", [](const Mesh& self) { return measure(self).volume; }, "of all hexahedra")
+          "volume", [](const Mesh& self) { return measure(self).volume; }, "of all cells")
       .def_property_readonly(
           "scaled_jacobian",
           [](const Mesh& self) {
             const std::vector<double> values = measure(self).jacobian;
             return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
           },
-          "the least of each hexahedron, 1 for boxes")
+          "the least of each hexahedron, prism, pyramid and tetrahedron")
       .def_property_readonly("periodic", &periodic_of,
                              "(index of a curve, index of the master curve, (n, 2) pairs of nodes)")
       .def_property_readonly("periodic_faces", &periodic_faces_of,

@@ -226,7 +226,7 @@ TEST(Inp, ReadsWhatProgramsWrite) {
     expect_input_error([&] { read_mesh(write_text(folder / "b.inp", text)); }, parts);
   };
   refuses("*NODE\n1, 0, x\n", {"b.inp:2: ", "'x'"});
-  refuses("*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D4\n", {"b.inp:3: ", "C3D4", "S4"});
+  refuses("*NODE\n1, 0, 0\n*ELEMENT, TYPE=C3D5\n", {"b.inp:3: ", "C3D5", "S4"});
   refuses("*NODE\n1, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", {"b.inp:4: ", "no node 2"});
   refuses("*NODE\n1, 0, 0\n1, 0, 0\n", {"b.inp:3: ", "node 1 is there twice"});
   refuses("*NODE\n1, 0, 0\n", {"b.inp:", "no *ELEMENT"});

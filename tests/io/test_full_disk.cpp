@@ -109,14 +109,14 @@ std::vector<Writer> writers() {
   constexpr int kAcross = 20;
   for (const MeshFormat& format : mesh_formats()) {
     const std::string extension = format.extensions[0];
-    if (can_write(format))
+    if (can_write(format) && format.has_faces)
       add("flat" + extension, [&format, extension](const auto& path) {
         const bool triangles = std::ranges::count(format.of_triangles, extension) > 0;
         write_mesh(path, quad_grid(kAcross, kAcross), {.triangles = triangles});
       });
     if (can_write(format) && format.most_order > 1)
       add("curved" + extension, [](const auto& path) { write_mesh(path, curved_grid(8, 8, 2, false)); });
-    if (format.has_hexahedra)
+    if (format.has_cells)
       add("hexahedra" + extension, [](const auto& path) {
         Mesh mesh;
         for (int i = 0; i <= kAcross; ++i)

@@ -103,7 +103,8 @@ TEST_F(MshReader, NamesTheLineOfWhatIsWrong) {
   expect_error(with(kSquare41, "6 1 2 10", "6 1 2 11"), {"case.msh:44: ", "no node with tag 11"});
   expect_error(with(kSquare41, "10\n4\n", "10\n1\n"),
                {"case.msh:26: ", "node tag 1 is used twice", "line 20"});
-  expect_error(with(kSquare41, "2 3 2 2\n", "2 3 4 2\n"), {"case.msh:43: ", "tetrahedron"});
+  expect_error(with(kSquare41, "2 3 2 2\n", "2 3 4 2\n"),
+               {"case.msh:43: ", "4 corners in a block of dimension 2"});
   expect_error(with(kSquare41, "2 3 2 2\n", "2 3 9 2\n"), {"case.msh:43: ", "second-order triangle"});
   expect_error(with(kSquare41, "2 3 2 2\n", "2 3 99 2\n"), {"case.msh:43: ", "element type 99"});
   expect_error(with(kSquare41, "2 3 2 2\n", "1 3 2 2\n"), {"case.msh:43: ", "dimension 1"});
@@ -150,7 +151,7 @@ TEST_F(MshReader, NeedsElements) {
   expect_error(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 15 0 "
       "1\n$EndElements\n",
-      {"no lines, triangles, quads or hexahedra"});
+      {"no lines, triangles, quads or cells"});
 }
 
 }  // namespace

@@ -2,11 +2,10 @@
 #include "metrics/cells.h"
 
 #include "tests/support/cells.h"
+#include "tests/support/files.h"
 
 namespace delquad {
 namespace {
-
-using testing_support::mixed_solid;
 
 TEST(Cells, AreMeasuredByShape) {
   const CellMeasures all = measure(mixed_solid());

@@ -30,7 +30,7 @@ TEST(ConvertCommand, TellsWhichNamesAFormatDoesNotHold) {
   const Folder folder;
   write_mesh(folder / "a.msh", grid_with_names());
   for (const MeshFormat& format : mesh_formats()) {
-    if (format.write == nullptr) continue;
+    if (format.write == nullptr || !format.has_faces) continue;
     const Folder out;
     Strings words = {"convert", folder / "a.msh", out / ("b" + format.extensions[0])};
     if (format.extensions[0] == ".stl") words.emplace_back("--triangles");

@@ -28,8 +28,8 @@ void add_skin(Mesh& mesh, const Region& region_of) {
 
 /// Three cubes with sides 1: a hexahedron, beside it five pyramids and two tetrahedra around a point, above
 /// it two prisms. The skin has the regions "floor" (z = 0) and "rest", and triangles at x = 2. The prisms
-/// are the volume "copper", the others are "steel".
-inline Mesh mixed_solid() {
+/// are the volume "copper", the others are "steel". The pyramids can be left out.
+inline Mesh mixed_solid(bool with_pyramids = true) {
   Mesh mesh;
   for (const double z : {0, 1, 2})
     for (const double y : {0, 1})
@@ -50,13 +50,13 @@ inline Mesh mixed_solid() {
     if (s == 3) {  // x = 2
       mesh.tetrahedra.push_back({a, d, b, centre});
       mesh.tetrahedra.push_back({b, d, c, centre});
-    } else {
+    } else if (with_pyramids) {
       mesh.pyramids.push_back({a, d, c, b, centre});
     }
   }
   mesh.hex_volume = {0};
   mesh.prism_volume = {1, 1};
-  mesh.pyramid_volume.assign(5, 0);
+  mesh.pyramid_volume.assign(mesh.pyramids.size(), 0);
   mesh.tet_volume.assign(2, 0);
   mesh.volumes = {{1, {"steel"}}, {2, {"copper"}}};
   mesh.regions = {{1, {"floor"}}, {2, {"rest"}}};

@@ -18,8 +18,11 @@ async function unpackMesh(info) {
   const [x, y, z] = info.origin.map((origin) => Float64Array.from(take(info.points, Float32Array), (beyond) => origin + beyond));
   const triangles = take(3 * info.triangles), quads = take(around * info.quads), eta = take(info.quads), lines = take(2 * info.lines);
   const irregular = Array.from({ length: info.irregular }, () => take(2)).map(([vertex, valence]) => ({ vertex, valence }));
-  return { x, y, z, triangles, quads, around, eta, lines, irregular, pairs: take(2 * info.pairs), regular: info.quads > 0 ? 4 : 6,
-    triangleRegion: entities(info.triangles), quadRegion: entities(info.quads), lineCurve: entities(info.lines) };
+  const pairs = take(2 * info.pairs), triangleRegion = entities(info.triangles), quadRegion = entities(info.quads), lineCurve = entities(info.lines);
+  const cells = info.cells > 0 ? { faceCells: take(2 * (info.triangles + info.quads)), cellAt: take(3 * info.cells, Float32Array),
+    cellShape: take(info.cells), cellClass: take(info.cells) } : {};
+  return { ...cells, x, y, z, triangles, quads, around, eta, lines, irregular, pairs, regular: info.quads > 0 ? 4 : 6, triangleRegion,
+    quadRegion, lineCurve };
 }
 
 /// Calls visit(corners, number of corners, place of the first, colour class or -1) for each element.

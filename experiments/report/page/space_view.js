@@ -182,14 +182,15 @@ class SpaceView {
     this.camera.position.copy(this.target).add(new THREE.Vector3(flat * Math.cos(around), flat * Math.sin(around), Math.sin(above)).setLength(away.length()));
     this.redraw();
   }
-  /// Cuts at a part of the box, 0 to 1, along an axis, 0 to 2, or nowhere (null): what is nearer to the eye than that is hidden.
-  cutAt(axis, part) {
-    this.cut = [];
-    if (axis !== null) {
-      const at = this.low[axis] + part * (this.high[axis] - this.low[axis]);
-      const away = this.camera.position.getComponent(axis) > this.target.getComponent(axis) ? -1 : 1;
-      this.cut.push({ normal: new THREE.Vector3().setComponent(axis, away), constant: -away * at });
-    }
+  /// The plane at a part of the box, 0 to 1, across an axis, 0 to 2. Its negative side is nearer to the eye.
+  planeAt(axis, part) {
+    const at = this.low[axis] + part * (this.high[axis] - this.low[axis]);
+    const away = this.camera.position.getComponent(axis) > this.target.getComponent(axis) ? -1 : 1;
+    return { normal: new THREE.Vector3().setComponent(axis, away), constant: -away * at };
+  }
+  /// Hides the negative side of a plane; null: of none.
+  cutAt(plane) {
+    this.cut = plane ? [plane] : [];
     this.redraw();
   }
   lookAt(at, size, away) {

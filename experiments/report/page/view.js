@@ -8,6 +8,7 @@ const kQuantities = {
   "aspect": { name: "longest to shortest side", of: (sides) => Math.max(...sides) / Math.min(...sides) },
   "names": null,
 };
+const kShapes = { label: "shape of the cell" };
 
 const threeDigits = (value, round) => {
   const unit = 10 ** (Math.floor(Math.log10(value)) - 2);
@@ -56,7 +57,9 @@ class MeshPage {
     this.regions = groupsOf(data.regions, [...mesh.triangleRegion, ...mesh.quadRegion], "elements", data.mesh.dimension === 3 ? "face" : "region", 0, 1);
     countIrregular(mesh, this.regions.of);
     this.curves = groupsOf(data.curves, mesh.lineCurve, "lines", null, this.regions.groups.length, data.mesh.order);
+    if (mesh.faceCells) Object.assign(kQuantities, { cells: kShapes });
     this.view = data.mesh.dimension === 3 ? new SpaceView() : new PlaneView();
+    if (mesh.faceCells) this.origin = new THREE.Vector3(...data.mesh.origin);
     this.marks = [...data.closeups, ...data.points].map(({ at }) => at);
     this.fill();
   }
@@ -73,11 +76,13 @@ class MeshPage {
     canvas.dataset.drawn = "yes";
     document.getElementById("about").append(...this.about());
   }
-  /// Cuts a surface open across an axis.
+  /// Cuts a surface open across an axis, or takes whole cells away.
   cutter() {
     const cut = () => {
       part.hidden = axis.value === "";
-      this.view.cutAt(part.hidden ? null : Number(axis.value), Number(part.value));
+      this.cut = part.hidden ? null : this.view.planeAt(Number(axis.value), Number(part.value));
+      if (this.mesh.faceCells) return this.show();
+      this.view.cutAt(this.cut);
     };
     const axis = el("select", { id: "cut-across", "aria-label": "Cut across", change: cut }, el("option", { value: "" }, "no cut"),
       ["x", "y", "z"].map((name, k) => el("option", { value: k }, `cut across ${name}`)));
@@ -135,9 +140,13 @@ class MeshPage {
       this.colour();
     } }, Object.keys(kQuantities).map((name) => el("option", { value: name }, kQuantities[name]?.label || name)));
     choice.value = this.colouredBy;
-    Object.assign(palette, { fixed: quantity ? null : kWordColours, low: 0, high: 1 });
+    Object.assign(palette, { fixed: quantity && quantity !== kShapes ? null : kWordColours, low: 0, high: 1 });
     let bar = el("div", { class: "bar" });
-    if (quantity === null) this.classes = this.regions.of.map((group) => kWordColours.indexOf(group.colour));
+    this.classOfCell = mesh.faceCells && quantity === kEta ? (c) => mesh.cellClass[c] : quantity === kShapes ? (c) => mesh.cellShape[c] : null;
+    if (quantity === kShapes) bar = el("div", { class: "bar" }, this.data.cells.map(({ name, number }, k) => number > 0 ? el("span", {},
+      el("span", { class: "dot", style: `background:${kWordColours[k]}` }), ` ${name} `) : ""));
+    if (this.classOfCell) this.classes = [];
+    else if (quantity === null) this.classes = this.regions.of.map((group) => kWordColours.indexOf(group.colour));
     else if (quantity === kEta) this.classes = [...new Array(mesh.triangles.length / 3).fill(-1), ...mesh.eta];
     else {
       const values = measured(mesh, quantity.of), finite = values.filter(Number.isFinite);
@@ -155,9 +164,21 @@ class MeshPage {
   show() {
     if (this.view.pictures.length > 0) this.view.show(this.shown());
   }
+  /// The cell that is seen on each face: of one that is kept and one that is cut away, the first; -1: none.
+  seen() {
+    const { mesh, cut } = this, isKept = (c) => c < mesh.cellShape.length &&
+      (!cut || cut.normal.dot(new THREE.Vector3(...mesh.cellAt.subarray(3 * c, 3 * c + 3)).add(this.origin)) + cut.constant >= 0);
+    const kept = Array.from(mesh.cellShape, (_, c) => isKept(c)).concat(false);
+    return Array.from({ length: mesh.faceCells.length / 2 }, (_, f) => {
+      const [a, b] = mesh.faceCells.subarray(2 * f, 2 * f + 2);
+      return kept[a] === kept[b] ? -1 : kept[a] ? a : b;
+    });
+  }
   /// What is switched on: elements of such regions, and what lies on them.
   shown() {
-    const { mesh, classes } = this, count = mesh.triangles.length / 3, on = this.regions.of.map((group) => group.on);
+    const { mesh } = this, count = mesh.triangles.length / 3, seen = mesh.faceCells && this.seen();
+    const on = this.regions.of.map((group, i) => group.on && !(seen && seen[i] < 0));
+    const classes = this.classOfCell ? seen.map((c) => (c < 0 ? -1 : this.classOfCell(c))) : this.classes;
     const used = new Uint8Array(mesh.x.length), bare = on.length === 0;
     const part = (nodes, n, first) => nodes.filter((v, i) => on[first + Math.floor(i / n)] && (used[v] = 1));
     const triangles = part(mesh.triangles, 3, 0), quads = part(mesh.quads, mesh.around, count);
@@ -175,12 +196,12 @@ async function main() {
   const data = JSON.parse(document.getElementById("data").textContent);
   Object.assign(kMarks, data.marks);
   kColourMaps.viridis = data.colours;
-  if (data.hexahedra > 0) Object.assign(kEta, { name: "scaled Jacobian", label: "scaled Jacobian" });
+  if (data.mesh.cells > 0) Object.assign(kEta, { name: "scaled Jacobian", label: "scaled Jacobian" });
   data.byKey = Object.fromEntries(data.metrics.map((metric) => [metric.key, metric]));
   document.title = document.getElementById("top").textContent = data.title;
   try {
     const mesh = await unpackMesh(data.mesh), span = (axis) => Number(axis.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]).reduce((a, b) => b - a).toPrecision(4));
-    document.getElementById("facts").textContent = `${[mesh.x, mesh.y, mesh.z].slice(0, data.mesh.dimension).map(span).join(" \u00d7 ")} ${data.unit}` + (data.hexahedra > 0 ? `, ${grouped(data.hexahedra)} hexahedra` : "") +
+    document.getElementById("facts").textContent = `${[mesh.x, mesh.y, mesh.z].slice(0, data.mesh.dimension).map(span).join(" \u00d7 ")} ${data.unit}` + data.cells.map(({ name, number }) => (number > 0 ? `, ${grouped(number)} ${name}` : "")).join("") +
       (data.mesh.order > 1 ? `, elements of order ${data.mesh.order}` : "");
     new MeshPage(data, mesh);
   } catch (error) {

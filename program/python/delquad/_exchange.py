@@ -20,7 +20,7 @@ def _write(self, path, binary=False, triangles=False, element=""):
     _core.Mesh._write_file(self, os.fspath(path), binary, triangles, element)
 
 
-_write.__doc__ = f"Writes {', '.join(_core._extensions(written=True))} (docs/meshing.md tells more), whole or not at all. element: of hexahedra in .inp, C3D8, C3D8I, C3D20, ..."
+_write.__doc__ = f"Writes {', '.join(_core._extensions(written=True))} (docs/meshing.md tells more), whole or not at all. element: of cells in .inp, C3D8, C3D8I, C3D20, ..."
 
 
 def _names(entities, kind):
@@ -40,6 +40,9 @@ def _to_meshio(self):
         ("triangle", self.triangles, tags(self.regions, self.triangle_region)),
         ("quad", self.quads, tags(self.regions, self.quad_region)),
         ("hexahedron", self.hexahedra, tags(self.volumes, self.hex_volume)),
+        ("wedge", self.prisms, tags(self.volumes, self.prism_volume)),
+        ("pyramid", self.pyramids, tags(self.volumes, self.pyramid_volume)),
+        ("tetra", self.tetrahedra, tags(self.volumes, self.tet_volume)),
     ]
     blocks = [block for block in blocks if len(block[1])]
     field_data = {}
@@ -180,8 +183,8 @@ def _view(self, path=None):
 
 def _repr(self):
     kind = type(self).__name__
-    hexahedra = f", {len(self.hexahedra)} hexahedra" if len(self.hexahedra) else ""
-    return f"<delquad.{kind}: {len(self.points)} points, {len(self.quads)} quads, {len(self.triangles)} triangles{hexahedra}>"
+    cells = "".join(f", {len(getattr(self, name))} {name}" for name in ("hexahedra", "prisms", "pyramids", "tetrahedra") if len(getattr(self, name)))
+    return f"<delquad.{kind}: {len(self.points)} points, {len(self.quads)} quads, {len(self.triangles)} triangles{cells}>"
 
 
 _core.Mesh.write = _write

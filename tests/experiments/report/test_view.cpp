@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/experiments/report/browser.h"
+#include "tests/support/cells.h"
 #include "tests/support/files.h"
 
 namespace delquad::testing_support {
@@ -56,6 +57,27 @@ for (const axis of all("#cut-across")) {
 }
 return { seen, numbers: all(".numbers dd").map((n) => n.textContent), facts: all("#facts")[0].textContent };
 )js";
+
+TEST(ViewPrograms, ShowsCellsByShapeAndTakesThemAway) {
+  NEEDS_BROWSER(browser);
+  const Folder folder;
+  const auto told = ask_view(browser, folder, mixed_solid(), R"js(
+const canvas = all("canvas")[0], seen = {};
+const after = async (name, act) => {
+  const before = canvas.toDataURL();
+  act();
+  await wait(200);
+  seen[name] = canvas.toDataURL() !== before;
+};
+await after("shapes", () => choose(all("#coloured-by")[0], "cells"));
+await after("cut", () => choose(all("#cut-across")[0], "0"));
+await after("quality", () => choose(all("#coloured-by")[0], "shape (\u03b7)"));
+await after("uncut", () => choose(all("#cut-across")[0], ""));
+return { seen, facts: all("#facts")[0].textContent };
+)js");
+  EXPECT_EQ(told["facts"], "2 \u00d7 1 \u00d7 2 , 1 hexahedra, 2 prisms, 5 pyramids, 2 tetrahedra");
+  EXPECT_EQ(told["seen"], Json({{"shapes", true}, {"cut", true}, {"quality", true}, {"uncut", true}}));
+}
 
 TEST(ViewPrograms, ShowsQualitySizesNamesAndWorstQuads) {
   NEEDS_BROWSER(browser);

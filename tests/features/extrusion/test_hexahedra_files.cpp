@@ -133,14 +133,14 @@ TEST(HexahedraFiles, TellWhatIsLeftOut) {
   ReadNotes notes;
   write_text(folder / "a.msh", two_cubes("4 3 2 7 1 1 2 12 11\n"));
   EXPECT_EQ(read_mesh(folder / "a.msh", &notes).quads.size(), 10u);
-  EXPECT_EQ(notes, Strings{"triangles and quads that are no sides of hexahedra are left out: 1"});
+  EXPECT_EQ(notes, Strings{"triangles and quads that are no sides of cells are left out: 1"});
   write_text(folder / "b.msh", two_cubes("4 5 2 9 1 1 2 3 4 5 6 7 8\n"));
   expect_input_error([&] { read_mesh(folder / "b.msh"); }, {"b.msh", "expected two at most"});
   write_mesh(folder / "c.inp", read_mesh(folder / "a.msh"), {.element = "C3D20R"});
   notes.clear();
   const Mesh corners = read_mesh(folder / "c.inp", &notes);
   EXPECT_EQ(corners.points.size(), 12u);
-  EXPECT_EQ(notes, Strings{"hexahedra of order 2 are read as their corners"});
+  EXPECT_EQ(notes, Strings{"cells of order 2 are read as their corners"});
 }
 
 TEST(HexahedraFiles, KeepTheirFields) {
@@ -171,7 +171,7 @@ TEST(HexahedraFiles, AreNoModelsOfQuads) {
       },
       {"hexahedra"});
   expect_input_error([&] { write_mesh(folder / "a.obj", read_mesh(folder / "a.msh")); },
-                     {"not written with hexahedra"});
+                     {"not written with cells"});
 }
 
 }  // namespace

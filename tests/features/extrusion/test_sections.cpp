@@ -188,7 +188,7 @@ TEST(Sections, TheSameBytesForEveryNumberOfThreads) {
   expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.element = "C3D8"}); },
                      {"expected .inp with --element"});
   expect_input_error([&] { write_mesh(folder / "a.inp", named, {.element = "C3D21"}); },
-                     {"unknown kind of hexahedra", "did you mean"});
+                     {"unknown kind of cells", "did you mean"});
 }
 
 double random_number(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
