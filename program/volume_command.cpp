@@ -40,7 +40,7 @@ Mesh mesh_skin(const VolumeArguments& arguments, Progress& progress) {
 int volume_command(const VolumeArguments& arguments) {
   const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
-  check_hex_format(arguments.output, arguments.msh);
+  check_cell_format(arguments.output, arguments.msh);
   if (arguments.model.empty() == arguments.from.empty())
     throw InputError("expected a model, or --from with a file of its quads");
   check_distinct({{"the model", arguments.model},
