@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,12 +37,15 @@ int wait_for_end(int child) {
   return status;
 }
 
-std::optional<std::string> call_in_child(const std::function<std::string()>& work) {
+std::optional<std::string> call_in_child(const std::function<std::string()>& work, unsigned seconds) {
   constexpr char kDone = '\n';  // a line that only the child can end
   const Pipe pipe;
   const int parent = getpid(), child = fork();
   if (child == 0) {
     end_with_parent(parent, SIGKILL);
+    const rlimit time{seconds, seconds}, no_core{0, 0};
+    if (seconds > 0) setrlimit(RLIMIT_CPU, &time);
+    setrlimit(RLIMIT_CORE, &no_core);
     const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);

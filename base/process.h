@@ -25,9 +25,10 @@ void end_with_parent(int parent, int signal_number);
 /// Waits for the end of a child. Returns its status as by waitpid(); -1: no such child.
 int wait_for_end(int child);
 
-/// Calls `work` in a forked process, which prints nothing. Returns its result; nothing if the process died.
-/// Throws std::system_error if none can start. finish_threads() must come before.
-std::optional<std::string> call_in_child(const std::function<std::string()>& work);
+/// Calls `work` in a forked process, which prints nothing. Returns its result; nothing if the process died,
+/// as by `seconds` of its processor (0: no limit). Throws std::system_error if none can start.
+/// finish_threads() must come before.
+std::optional<std::string> call_in_child(const std::function<std::string()>& work, unsigned seconds = 0);
 
 /// Starts a program that prints nothing and outlives this process. A missing program is no error.
 void start_detached(std::string program, std::string argument);

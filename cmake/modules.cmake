@@ -134,6 +134,7 @@ delquad_module(metrics/judgement COLD LINKS base geometry/mesh geometry/patches 
 delquad_module(features/given COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/patches metrics metrics/judgement
                features/embedded)
 delquad_module(features/curved LINKS base geometry/mesh geometry/planar geometry/patches metrics features/layers PRIVATE Ceres::ceres)
+delquad_module(features/volume LINKS base geometry/mesh metrics)
 delquad_module(features/extrusion COLD LINKS base geometry/mesh metrics io PRIVATE Eigen3::Eigen)
 delquad_module(features/curves COLD LINKS base base/matching geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields
                algorithms/fields/surface
@@ -162,6 +163,6 @@ if(DELQUAD_PROGRAMS)
   delquad_module(experiments/report COLD LINKS base geometry/mesh metrics metrics/tables io mesher experiments/sweep PRIVATE ZLIB::ZLIB
                  nlohmann_json::nlohmann_json)
   delquad_module(program COLD LINKS base geometry/mesh geometry/surface geometry/cad algorithms/fields metrics metrics/solve
-                 metrics/judgement metrics/tables io io/cases features/extrusion mesher mesher/adapt experiments/console experiments/sweep
+                 metrics/judgement metrics/tables io io/cases features/extrusion features/volume mesher mesher/adapt experiments/console experiments/sweep
                  experiments/report PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
 endif()

@@ -50,6 +50,7 @@ void add_convert(CLI::App& app, Commands& commands);
 void add_metrics(CLI::App& app, Commands& commands);
 void add_adapt(CLI::App& app, Commands& commands);
 void add_extrude(CLI::App& app, Commands& commands);
+void add_volume(CLI::App& app, Commands& commands);
 void add_compare(CLI::App& app, Commands& commands);
 void add_info(CLI::App& app, Commands& commands);
 void add_example(CLI::App& app, Commands& commands);

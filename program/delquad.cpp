@@ -61,8 +61,9 @@ void add_common(CLI::App& app, CommonArguments& common) {
 
 Commands add_commands(CLI::App& app, CommonArguments& common) {
   Commands commands;
-  for (const auto add : {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_view,
-                         add_convert, add_metrics, add_extrude, add_compare, add_info, add_example})
+  for (const auto add :
+       {add_run, add_batch, add_results, add_lists, add_mesh, add_adapt, add_view, add_convert, add_metrics,
+        add_extrude, add_volume, add_compare, add_info, add_example})
     add(app, commands);
   for (const Command& command : commands)
     if (command.has_time_limit)

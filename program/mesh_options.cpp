@@ -263,12 +263,11 @@ void add_msh(CLI::App& command, MshOptions& msh) {
       ->transform(CLI::CheckedTransformer(curves).description("all, boundary or named"));
 }
 
-CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
-  CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
-  mesh->add_option("model", arguments.model,
-                   "a model (.toml), outlines (.geojson), lines or triangles (.msh), triangles (.stl, .obj, "
-                   ".off, .ply, .3mf), CAD (.step, .stp, .iges, .igs, .brep), or a record (.json)")
-      ->required();
+CLI::Option* add_model(CLI::App* mesh, MeshArguments& arguments) {
+  CLI::Option* model = mesh->add_option(
+      "model", arguments.model,
+      "a model (.toml), outlines (.geojson), lines or triangles (.msh), triangles (.stl, .obj, "
+      ".off, .ply, .3mf), CAD (.step, .stp, .iges, .igs, .brep), or a record (.json)");
   add_keys(*mesh, arguments,
            [](const std::string& key) { return !key.starts_with("surface.") || kOfMesh.contains(key); });
   mesh->add_option("--metric", arguments.metric,
@@ -288,6 +287,12 @@ CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
                    "C, Q, R and O")
       ->excludes(quality);
   add_set(*mesh, arguments);
+  return model;
+}
+
+CLI::App* add_mesh_options(CLI::App& app, MeshArguments& arguments) {
+  CLI::App* mesh = app.add_subcommand("mesh", "Mesh a planar domain or a surface");
+  add_model(mesh, arguments)->required();
   add_mesh_output(*mesh, arguments);
   return mesh;
 }

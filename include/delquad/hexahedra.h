@@ -9,7 +9,8 @@
 
 #include "delquad/mesh.h"
 
-// This header sweeps quads to hexahedra, and measures cells of volumes. Programs that mesh solids use it.
+// This header sweeps quads to hexahedra, fills closed quads with cells, and measures cells. Programs that
+// mesh solids use it.
 
 namespace delquad {
 
@@ -76,5 +77,23 @@ struct CellMeasures : ShapeMeasures {
 };
 /// Returns the measures of the cells of a mesh.
 CellMeasures measure(const Mesh& mesh);
+
+/// Kinds of cells in a volume.
+enum class VolumeCells {
+  kPyramidsAndTets,  ///< a pyramid on each quad, tetrahedra between
+  kTets,             ///< each quad is split into two triangles
+};
+
+struct VolumeOptions {
+  VolumeCells cells = VolumeCells::kPyramidsAndTets;
+  long long max_elements = 50'000'000;
+};
+
+/// Fills closed quads of order 1 with cells. Quads may enclose cavities and several bodies, also with quads
+/// between them. Points keep their numbers and places. Quads look outwards afterwards; with tetrahedra alone
+/// each becomes two triangles. Each body is a volume, with the names that all its faces share; a cavity is
+/// told to `notes`. The same input gives the same bytes. Throws InputError, with the place, for triangles,
+/// quads that are open or cross each other, and bodies that cannot be filled.
+Mesh fill_skin(const Mesh& skin, const VolumeOptions& options = {}, ReadNotes* notes = nullptr);
 
 }  // namespace delquad

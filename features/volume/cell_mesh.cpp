@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/cell_mesh.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace delquad {
+
+namespace {
+
+double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
+
+Vec3 unit(const Vec3& v) {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : v;
+}
+
+double quality_of_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double lu = norm(u), lv = norm(v), lw = norm(w), bc = norm(c - b), cd = norm(d - c), db = norm(b - d);
+  const double most = std::max({lu * lv * lw, lu * bc * db, lv * bc * cd, lw * cd * db});
+  const double least = std::min({lu * lv * lw, lu * bc * db, lv * bc * cd, lw * cd * db});
+  const double det = triple(u, v, w);
+  return most > 0 ? std::numbers::sqrt2 * det / (det > 0 || least == 0 ? most : least) : 0;
+}
+
+}  // namespace
+
+double quality_of(const std::array<Vec3, 5>& p, bool is_pyramid) {
+  if (!is_pyramid) return quality_of_tetrahedron(p[0], p[1], p[2], p[3]);
+  std::array<Vec3, 4> side, up;
+  for (int k = 0; k < 4; ++k) {
+    side[k] = unit(p[(k + 1) % 4] - p[k]);
+    up[k] = unit(p[4] - p[k]);
+  }
+  double least = 1;
+  for (int k = 0; k < 4; ++k) {
+    const double base = triple(side[(k + 1) % 4], (-1.0) * side[k], up[(k + 1) % 4]);
+    least = std::min({least, base, triple(up[k], up[(k + 1) % 4], up[(k + 2) % 4])});
+  }
+  return std::numbers::sqrt2 * least;
+}
+
+double CellMesh::quality_with(const Cell& cell, int v, const Vec3& x) const {
+  std::array<Vec3, 5> p;
+  for (int k = 0; k < n_corners(cell); ++k) p[k] = cell[k] == v ? x : points_[cell[k]];
+  return quality_of(p, cell[4] >= 0);
+}
+
+int CellMesh::add_point(const Vec3& p) {
+  points_.push_back(p);
+  at_.emplace_back();
+  return static_cast<int>(points_.size()) - 1;
+}
+
+void CellMesh::add(const Cell& cell) {
+  const int c = static_cast<int>(cells_.size());
+  cells_.push_back(cell);
+  quality_.push_back(quality_with(cell));
+  for (int k = 0; k < n_corners(cell); ++k) at_[cell[k]].push_back(c);
+}
+
+void CellMesh::remove(int c) {
+  for (int k = 0; k < n_corners(cells_[c]); ++k) std::erase(at_[cells_[c][k]], c);
+  cells_[c].fill(-1);
+  quality_[c] = 1;
+}
+
+void CellMesh::move(int v, const Vec3& to) {
+  points_[v] = to;
+  for (const int c : at_[v]) quality_[c] = quality_with(cells_[c]);
+}
+
+std::vector<int> CellMesh::cells_with(std::initializer_list<int> corners) const {
+  std::vector<int> found;
+  for (const int c : at_[*corners.begin()])
+    if (std::ranges::all_of(corners, [&](int v) { return has_corner(cells_[c], v); })) found.push_back(c);
+  return found;
+}
+
+double CellMesh::least(const std::vector<int>& cells) const {
+  double least = 1;
+  for (const int c : cells) least = std::min(least, quality_[c]);
+  return least;
+}
+
+bool CellMesh::replace(const std::vector<int>& old, const std::vector<Cell>& by, double gain) {
+  const double before = least(old) + gain;
+  for (const Cell& cell : by)
+    if (!(quality_with(cell) > before)) return false;
+  for (const int c : old) remove(c);
+  for (const Cell& cell : by) add(cell);
+  return true;
+}
+
+std::vector<int> CellMesh::ring(int a, int b, bool& is_open) const {
+  std::vector<std::array<int, 2>> steps;
+  for (const int c : cells_with({a, b})) {
+    const Cell& cell = cells_[c];
+    if (cell[4] >= 0) return {};
+    const auto place = [&](int v) { return static_cast<int>(std::ranges::find(cell, v) - cell.begin()); };
+    const int i = place(a), j = place(b);
+    int k = 0;
+    while (k == i || k == j) ++k;
+    int l = 6 - i - j - k;
+    // The order a, b, k, l is even if a tetrahedron stays positive by it.
+    const bool is_odd = ((i > j) + (i > k) + (i > l) + (j > k) + (j > l) + (k > l)) % 2 == 1;
+    if (is_odd) std::swap(k, l);
+    steps.push_back({cell[k], cell[l]});
+  }
+  if (steps.empty()) return {};
+  std::vector<int> around = {steps[0][0]};
+  const auto next = [&](int v) { return std::ranges::find(steps, v, [](const auto& s) { return s[0]; }); };
+  // An open ring begins at the vertex that no step reaches.
+  for (const auto& [from, to] : steps)
+    if (std::ranges::none_of(steps, [&, f = from](const auto& s) { return s[1] == f; })) around[0] = from;
+  for (auto step = next(around[0]); step != steps.end() && (*step)[1] != around[0]; step = next((*step)[1])) {
+    around.push_back((*step)[1]);
+    if (around.size() > steps.size() + 1) return {};
+  }
+  is_open = around.size() == steps.size() + 1;
+  return is_open || around.size() == steps.size() ? around : std::vector<int>();
+}
+
+}  // namespace delquad

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "base/cancel.h"
+#include "base/located.h"
+#include "base/text.h"
+#include "delquad/hexahedra.h"
+#include "features/volume/fill_around.h"
+#include "features/volume/fill_void.h"
+#include "features/volume/find_bodies.h"
+#include "geometry/mesh/cell_shapes.h"
+#include "geometry/mesh/check_mesh.h"
+#include "metrics/cells.h"
+
+namespace delquad {
+
+namespace {
+
+using Quad = std::array<int, 4>;
+
+/// Turns the quad so that its first corner has the diagonal whose triangles have the larger least sine.
+Quad by_better_diagonal(const Mesh& mesh, Quad q) {
+  const auto sine = [&](int i, int j, int k) {
+    const Vec3 u = mesh.points[q[j]] - mesh.points[q[i]], v = mesh.points[q[k]] - mesh.points[q[j]];
+    const double lu = norm(u), lv = norm(v), lw = norm(u + v);
+    return norm(cross(u, v)) / std::max({lu * lv, lv * lw, lw * lu, std::numeric_limits<double>::min()});
+  };
+  if (std::min(sine(1, 2, 3), sine(1, 3, 0)) > std::min(sine(0, 1, 2), sine(0, 2, 3)))
+    std::rotate(q.begin(), q.begin() + 1, q.end());
+  return q;
+}
+
+void check_skin(const Mesh& skin, long long max_elements) {
+  require_readable(skin, "skin");
+  require_straight(skin, "skin");
+  if (!skin.triangles.empty())
+    refuse("the skin has {} triangles, one at {}: a volume needs quads alone [odd-boundary]",
+           skin.triangles.size(), show_point(skin.points[skin.triangles[0][0]]));
+  if (skin.quads.empty()) throw InputError("the skin has no quads: expected a closed skin of quads");
+  if (static_cast<long long>(skin.quads.size()) > max_elements)
+    refuse("the skin has {} quads, and --max-elements allows {} cells", skin.quads.size(), max_elements);
+}
+
+/// Fills bodies one by one and collects their cells.
+class SkinFiller {
+ public:
+  SkinFiller(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes)
+      : options_(options), result_(skin), bodies_(find_bodies(skin, notes)) {
+    for (const Quad& q : skin.quads) split_.push_back(by_better_diagonal(skin, q));
+    Vec3 where;
+    if (const std::vector<int> faces = untangle(skin.points, split_, {}, &where); !faces.empty())
+      refuse("the skin crosses itself at {} in {} quads: smaller sizes there keep thin parts open",
+             show_point(where), faces.size());
+  }
+
+  Mesh fill() {
+    constexpr int kAttempts = 4;
+    const Mesh skin = result_;
+    for (int attempt = 1; !fill_bodies(attempt == kAttempts); ++attempt) result_ = skin;
+    name_volumes();
+    orient_faces();
+    return std::move(result_);
+  }
+
+ private:
+  bool tets_alone() const { return options_.cells == VolumeCells::kTets; }
+
+  /// Fills all bodies. Returns false after a change of diagonals that may help; throws InputError if this is
+  /// the last attempt, or if nothing can be changed.
+  bool fill_bodies(bool is_last) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      check_cancelled();
+      std::vector<int> lost;
+      fill_body(static_cast<int>(b), lost);
+      if (!lost.empty() && (is_last || !tets_alone())) refuse_body(bodies_[b], lost);
+      for (const int i : lost) {
+        Quad& q = split_[bodies_[b][i].quad];
+        std::rotate(q.begin(), q.begin() + 1, q.end());
+      }
+      if (!lost.empty()) return false;
+    }
+    return true;
+  }
+
+  /// Adds the cells of a body, or fills `lost` with the sides that fail.
+  void fill_body(int body, std::vector<int>& lost) {
+    Mesh part;
+    std::vector<int> of_skin;  // point of the result for each point of the part; -1: not yet there
+    std::map<int, int> place;
+    for (const auto& [q, is_reversed] : bodies_[body]) {
+      Quad quad = split_[q];
+      for (int& v : quad) {
+        const auto [at, is_new] = place.try_emplace(v, static_cast<int>(of_skin.size()));
+        if (is_new) of_skin.push_back(v), part.points.push_back(result_.points[v]);
+        v = at->second;
+      }
+      if (is_reversed) std::swap(quad[1], quad[3]);
+      const auto [a, b, c, d] = quad;
+      if (tets_alone())
+        part.triangles.insert(part.triangles.end(), {{a, b, c}, {a, c, d}});
+      else
+        part.quads.push_back(quad);
+    }
+    lost = fill_around(part);
+    for (int& face : lost) face /= tets_alone() ? 2 : 1;
+    lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
+    if (!lost.empty()) return;
+    of_skin.resize(part.points.size(), -1);
+    const auto add = [&](const auto& from, auto& to, std::vector<int>& volume_of) {
+      for (auto cell : from) {
+        for (int& v : cell) {
+          if (of_skin[v] < 0) {
+            of_skin[v] = static_cast<int>(result_.points.size());
+            result_.points.push_back(part.points[v]);
+          }
+          v = of_skin[v];
+        }
+        to.push_back(cell);
+        volume_of.push_back(body);
+      }
+    };
+    add(part.hexahedra, result_.hexahedra, result_.hex_volume);
+    add(part.prisms, result_.prisms, result_.prism_volume);
+    add(part.pyramids, result_.pyramids, result_.pyramid_volume);
+    add(part.tetrahedra, result_.tetrahedra, result_.tet_volume);
+    if (static_cast<long long>(n_solids(result_)) > options_.max_elements)
+      refuse("{} cells are needed, and --max-elements allows {}: a larger size needs fewer",
+             n_solids(result_), options_.max_elements);
+  }
+
+  [[noreturn]] void refuse_body(const Body& body, const std::vector<int>& lost) const {
+    refuse(
+        "the body cannot be filled at {}: {} of its {} quads allow no cells; expected {}smaller sizes there",
+        show_point(middle_of(result_, body[lost[0]].quad)), lost.size(), body.size(),
+        tets_alone() ? "" : "'--cells tets', which splits quads, or ");
+  }
+
+  /// Names a volume by what all its faces have in common.
+  void name_volumes() {
+    for (const Body& body : bodies_) {
+      std::vector<std::string> names = result_.regions[result_.quad_region[body[0].quad]].names;
+      for (const BodySide& side : body) {
+        const auto& of_face = result_.regions[result_.quad_region[side.quad]].names;
+        std::erase_if(names, [&](const std::string& name) {
+          return std::ranges::find(of_face, name) == of_face.end();
+        });
+      }
+      result_.volumes.push_back({static_cast<int>(result_.volumes.size()) + 1, names});
+    }
+  }
+
+  /// Lets quads of single bodies look outwards; splits them for tetrahedra.
+  void orient_faces() {
+    std::vector<int> turns(split_.size(), 0);
+    for (const Body& body : bodies_)
+      for (const BodySide& side : body) turns[side.quad] += side.is_reversed ? -1 : 1;
+    for (std::size_t i = 0; i < turns.size(); ++i)
+      for (Quad* q : {&split_[i], &result_.quads[i]})
+        if (turns[i] < 0) std::swap((*q)[1], (*q)[3]);
+    if (!tets_alone()) return;
+    for (std::size_t i = 0; i < split_.size(); ++i) {
+      const auto [a, b, c, d] = split_[i];
+      result_.triangles.insert(result_.triangles.end(), {{a, b, c}, {a, c, d}});
+      result_.triangle_region.insert(result_.triangle_region.end(), 2, result_.quad_region[i]);
+    }
+    result_.quads.clear(), result_.quad_region.clear();
+    result_.periodic_faces.clear();
+  }
+
+  VolumeOptions options_;
+  Mesh result_;
+  std::vector<Body> bodies_;
+  std::vector<Quad> split_;  ///< quads whose first diagonals split them into triangles
+};
+
+}  // namespace
+
+Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {
+  check_skin(skin, options.max_elements);
+  const Mesh mesh = SkinFiller(skin, options, notes).fill();
+  if (const std::vector<std::string> defects = defects_of_cells(mesh); !defects.empty())
+    refuse("the cells are not sound: {}", fmt::join(defects, "; "));
+  return mesh;
+}
+
+}  // namespace delquad

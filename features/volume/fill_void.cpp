@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/fill_void.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "base/orientation.h"
+#include "base/sort_unique.h"
+#include "features/volume/tetrahedralise.h"
+#include "geometry/mesh/cell_shapes.h"
+#include "geometry/mesh/find_crossings.h"
+
+namespace delquad {
+
+namespace {
+
+using Quad = std::array<int, 4>;
+using Triangle = std::array<int, 3>;
+
+/// Pyramids below this quality are not made of two tetrahedra.
+constexpr double kGoodPyramid = 0.35;
+/// Cells below this quality are improved.
+constexpr double kWanted = 0.42;
+
+/// Turns a quad so that its diagonal from the first corner lies deeper in the void. In a plane it is the
+/// shorter one, or with `other` the longer one.
+Quad turned(const std::vector<Vec3>& p, Quad q, bool other) {
+  int sign = orient3d(p[q[0]], p[q[1]], p[q[2]], p[q[3]]);
+  if (sign == 0) sign = (norm(p[q[2]] - p[q[0]]) <= norm(p[q[3]] - p[q[1]])) == !other ? 1 : -1;
+  if (sign < 0) std::rotate(q.begin(), q.begin() + 1, q.end());
+  return q;
+}
+
+/// A face of a tetrahedron, or of the boundary, with its vertices sorted.
+struct Face {
+  Triangle key;
+  int tetrahedron;  ///< -1 - i: triangle i of the boundary
+  bool is_even;  ///< the sorted vertices run counterclockwise seen from outside of the tetrahedron, or void
+};
+
+Face face_of(Triangle t, int tetrahedron) {
+  const bool odd = ((t[0] > t[1]) + (t[0] > t[2]) + (t[1] > t[2])) % 2 == 1;
+  std::ranges::sort(t);
+  return {t, tetrahedron, !odd};
+}
+
+/// Finds the tetrahedra in the void, and adds the lost triangles of the boundary to `lost`.
+std::vector<std::array<int, 4>> inner_tetrahedra(const Tetrahedra& made,
+                                                 const std::vector<Triangle>& boundary,
+                                                 std::vector<int>& lost) {
+  std::vector<Face> faces;
+  for (int c = 0; c < static_cast<int>(made.cells.size()); ++c) {
+    const auto& v = made.cells[c];
+    for (const auto& side : cell_tables::kTetSides)
+      faces.push_back(face_of({v[side[0]], v[side[1]], v[side[2]]}, c));
+  }
+  for (int i = 0; i < static_cast<int>(boundary.size()); ++i) faces.push_back(face_of(boundary[i], -1 - i));
+  std::ranges::sort(faces, {}, [](const Face& f) { return std::pair(f.key, f.tetrahedron); });
+  std::vector<std::vector<int>> neighbours(made.cells.size());
+  std::vector<char> is_inside(made.cells.size(), 0);
+  std::vector<int> waiting;
+  for (std::size_t i = 0, j = 0; i < faces.size(); i = j) {
+    for (j = i; j < faces.size() && faces[j].key == faces[i].key;) ++j;
+    if (faces[i].tetrahedron >= 0) {
+      if (j - i == 2)
+        for (const std::size_t k : {i, i + 1})
+          neighbours[faces[k].tetrahedron].push_back(faces[2 * i + 1 - k].tetrahedron);
+      continue;
+    }
+    bool is_found = false;
+    for (std::size_t k = i + 1; k < j; ++k)
+      if (faces[k].tetrahedron >= 0 && faces[k].is_even == faces[i].is_even) {
+        waiting.push_back(faces[k].tetrahedron);
+        is_found = true;
+      }
+    if (!is_found) lost.push_back(-1 - faces[i].tetrahedron);
+  }
+  std::vector<std::array<int, 4>> inside;
+  while (!waiting.empty()) {
+    const int c = waiting.back();
+    waiting.pop_back();
+    if (std::exchange(is_inside[c], 1)) continue;
+    waiting.insert(waiting.end(), neighbours[c].begin(), neighbours[c].end());
+  }
+  for (std::size_t c = 0; c < made.cells.size(); ++c)
+    if (is_inside[c]) inside.push_back(made.cells[c]);
+  return inside;
+}
+
+/// Makes pyramids on quads.
+class PyramidMaker {
+ public:
+  PyramidMaker(CellMesh& mesh, std::vector<Quad> quads) : mesh_(mesh), quads_(std::move(quads)) {
+    for (const Quad& q : quads_) diagonals_.insert(std::minmax(q[0], q[2]));
+  }
+  /// Returns the quads that get none.
+  std::vector<int> make() {
+    std::vector<int> left(quads_.size()), lost;
+    std::iota(left.begin(), left.end(), 0);
+    std::erase_if(left, [&](int q) { return merge(quads_[q]); });
+    for (const int q : left)
+      if (!merge(quads_[q]) && !raise(quads_[q])) lost.push_back(q);
+    return lost;
+  }
+
+ private:
+  void forget(const Quad& q) { diagonals_.erase(std::minmax(q[0], q[2])); }
+
+  /// Merges the tetrahedra on a quad if they have a common apex.
+  bool merge(Quad& q) {
+    std::array<int, 2> cells;
+    for (int turn = 0;; ++turn) {
+      const std::vector<int> one = mesh_.cells_with({q[0], q[1], q[2]}),
+                             two = mesh_.cells_with({q[0], q[2], q[3]});
+      if (one.size() != 1 || two.size() != 1) return false;
+      cells = {one[0], two[0]};
+      if (one != two) break;
+      if (turn > 0) return false;
+      // A tetrahedron of the four corners lies beyond the quad, whose other diagonal is deeper.
+      mesh_.remove(one[0]);
+      forget(q);
+      std::rotate(q.begin(), q.begin() + 1, q.end());
+      diagonals_.insert(std::minmax(q[0], q[2]));
+    }
+    int apex = -1;
+    for (const int v : mesh_.cells()[cells[0]])
+      if (v >= 0 && std::ranges::find(q, v) == q.end() && has_corner(mesh_.cells()[cells[1]], v)) apex = v;
+    if (apex < 0) return false;
+    for (const int v : q)
+      if (diagonals_.contains(std::minmax(v, apex))) return false;
+    const Cell pyramid = {q[0], q[3], q[2], q[1], apex};
+    if (mesh_.quality_with(pyramid) < kGoodPyramid) return false;
+    for (const int c : cells) mesh_.remove(c);
+    mesh_.add(pyramid);
+    forget(q);
+    return true;
+  }
+
+  /// Splits the diagonal of a quad by a vertex, raised to where the worst cell is best.
+  bool raise(const Quad& q) {
+    const auto [a, b, c, d] = q;
+    bool is_open = false;
+    const std::vector<int> ring = mesh_.ring(a, c, is_open);
+    if (!is_open) return false;
+    const auto& p = mesh_.points();
+    const Vec3 middle = 0.5 * (p[a] + p[c]), mean = 0.5 * (middle + 0.5 * (p[b] + p[d]));
+    const Vec3 area = 0.5 * cross(p[c] - p[a], p[d] - p[b]);
+    const double height = std::sqrt(norm(area) / 2);  // of a pyramid of equal edges on a square
+    if (!(height > 0)) return false;
+    const Vec3 inwards = (-height / norm(area)) * area;
+    const int m = mesh_.add_point(middle);
+    std::vector<Cell> cells = {{a, d, c, b, m}};
+    const std::vector<int> old = mesh_.cells_with({a, c});
+    for (const int t : old)
+      for (const int end : {a, c}) {
+        cells.push_back(mesh_.cells()[t]);
+        std::ranges::replace(cells.back(), end, m);
+      }
+    double best = -2;
+    Vec3 at = middle;
+    for (const double t : {1.0, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, 0.02, 0.005, 0.001})
+      for (const Vec3& from : {mean, middle}) {
+        const Vec3 x = from + t * inwards;
+        double least = 1;
+        for (const Cell& cell : cells) least = std::min(least, mesh_.quality_with(cell, m, x));
+        if (least > best) best = least, at = x;
+      }
+    mesh_.move(m, at);
+    for (const int t : old) mesh_.remove(t);
+    for (const Cell& cell : cells) mesh_.add(cell);
+    relocate(mesh_, m);
+    forget(q);
+    return true;
+  }
+
+  CellMesh& mesh_;
+  std::vector<Quad> quads_;
+  std::set<std::pair<int, int>> diagonals_;  ///< of quads without pyramids, which no pyramid may use
+};
+
+/// Returns the face of a triangle, where quads come first and have two each.
+int face_at(int triangle, std::size_t n_quads) {
+  const int n = static_cast<int>(n_quads);
+  return triangle < 2 * n ? triangle / 2 : triangle - n;
+}
+
+/// Returns both triangles of each quad, by its diagonal from the first corner, then the given triangles.
+std::vector<Triangle> split(const std::vector<Quad>& quads, const std::vector<Triangle>& triangles) {
+  std::vector<Triangle> all;
+  for (const auto& [a, b, c, d] : quads) all.insert(all.end(), {{a, b, c}, {a, c, d}});
+  all.insert(all.end(), triangles.begin(), triangles.end());
+  return all;
+}
+
+/// Fills by given quads, whose diagonals from the first corners are used.
+Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads) {
+  Filling result;
+  result.lost = untangle(boundary.points, quads, boundary.triangles);
+  if (!result.lost.empty()) return result;
+  const std::vector<Triangle> triangles = split(quads, boundary.triangles);
+  const auto made = tetrahedralise(boundary.points, triangles, boundary.holes);
+  if (!made) {
+    result.lost.resize(quads.size() + boundary.triangles.size());
+    std::iota(result.lost.begin(), result.lost.end(), 0);
+    return result;
+  }
+  const int n_quads = static_cast<int>(quads.size());
+  const std::vector<std::array<int, 4>> inside = inner_tetrahedra(*made, triangles, result.lost);
+  for (int& face : result.lost) face = face_at(face, quads.size());
+  sort_unique(result.lost);
+  if (!result.lost.empty()) return result;
+  CellMesh mesh(made->points, boundary.points.size());
+  for (const auto& [a, b, c, d] : inside) mesh.add({a, b, c, d, -1});
+  result.lost = PyramidMaker(mesh, quads).make();
+  improve(mesh, kWanted);
+  std::set<int> flat;
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    if (!mesh.is_alive(static_cast<int>(c))) continue;
+    result.cells.push_back(mesh.cells()[c]);
+    if (mesh.quality(static_cast<int>(c)) < kLeastQuality)
+      flat.insert(mesh.cells()[c].begin(), mesh.cells()[c].end());
+  }
+  const auto is_flat = [&](const auto& face) {
+    return std::ranges::count_if(face, [&](int v) { return flat.contains(v); }) > 1;
+  };
+  for (int i = 0; i < n_quads; ++i)
+    if (is_flat(quads[i])) result.lost.push_back(i);
+  for (std::size_t i = 0; i < boundary.triangles.size(); ++i)
+    if (is_flat(boundary.triangles[i])) result.lost.push_back(n_quads + static_cast<int>(i));
+  sort_unique(result.lost);
+  result.points = mesh.points();
+  return result;
+}
+
+}  // namespace
+
+std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& quads,
+                          const std::vector<Triangle>& triangles, Vec3* where) {
+  constexpr int kPasses = 5;  // enough for the four choices of two quads
+  for (int pass = 0;; ++pass) {
+    const std::vector<Triangle> all = split(quads, triangles);
+    std::vector<Crossing> tangles = find_crossings(points, all, [](int, int) { return false; });
+    std::vector<std::pair<Triangle, int>> sorted;
+    for (std::size_t i = 0; i < all.size(); ++i) sorted.emplace_back(face_of(all[i], 0).key, i);
+    std::ranges::sort(sorted);
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+      if (sorted[i].first == sorted[i - 1].first)
+        tangles.push_back({sorted[i].second, sorted[i - 1].second, points[sorted[i].first[0]]});
+    std::vector<int> faces;
+    for (const Crossing& tangle : tangles)
+      for (const int t : {tangle.first, tangle.second})
+        if (pass == kPasses || t == (pass % 2 == 0 ? tangle.first : tangle.second))
+          faces.push_back(face_at(t, quads.size()));
+    sort_unique(faces);
+    if (pass == kPasses || tangles.empty()) {
+      if (where != nullptr && !tangles.empty()) *where = tangles[0].at;
+      return faces;
+    }
+    for (const int f : faces)
+      if (f < static_cast<int>(quads.size()))
+        std::rotate(quads[f].begin(), quads[f].begin() + 1, quads[f].end());
+  }
+}
+
+Filling fill_void(const VoidBoundary& boundary) {
+  Filling best;
+  std::vector<char> other(boundary.quads.size(), 0);
+  constexpr int kAttempts = 3;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::vector<Quad> quads;
+    for (std::size_t q = 0; q < boundary.quads.size(); ++q)
+      quads.push_back(turned(boundary.points, boundary.quads[q], other[q]));
+    Filling filling = fill(boundary, quads);
+    if (attempt == 0 || filling.lost.size() < best.lost.size()) best = filling;
+    if (best.lost.empty()) break;
+    for (const int face : filling.lost)
+      if (face < static_cast<int>(other.size())) other[face] ^= 1;
+  }
+  return best;
+}
+
+}  // namespace delquad

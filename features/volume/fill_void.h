@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "features/volume/cell_mesh.h"
+
+// This header fills the space between quads and triangles with pyramids and tetrahedra. Volume meshes use it.
+
+namespace delquad {
+
+/// The closed boundary of a void. Faces run counterclockwise seen from outside of the void.
+struct VoidBoundary {
+  std::vector<Vec3> points;  ///< points of no face are left out
+  std::vector<std::array<int, 4>> quads;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<Vec3> holes;  ///< a point in each enclosed region that is no part of the void
+};
+
+struct Filling {
+  std::vector<Vec3> points;  ///< the given points, then new ones
+  std::vector<Cell> cells;
+  /// Faces, quads first, at which the filling fails. All are listed if TetGen fails. If the
+  /// list is empty, each quad is the base of a pyramid, and all cells are positive.
+  std::vector<int> lost;
+};
+
+/// A cell below this quality counts as flat. It is far above rounding.
+inline constexpr double kLeastQuality = 1e-6;
+
+/// Turns quads until their triangles by the diagonals from the first corners neither cross each other nor
+/// coincide. `triangles` stay as they are. Returns the faces, quads first, that still do, and where the first
+/// does.
+std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<std::array<int, 4>>& quads,
+                          const std::vector<std::array<int, 3>>& triangles, Vec3* where = nullptr);
+
+/// Fills a void. Tetrahedra come from tetrahedralise(). Two of them on a quad with a common apex become a
+/// pyramid. Elsewhere a new vertex splits the diagonal of the quad and is raised. Then cells are improved.
+Filling fill_void(const VoidBoundary& boundary);
+
+}  // namespace delquad

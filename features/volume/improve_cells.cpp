@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "features/volume/cell_mesh.h"
+
+namespace delquad {
+
+namespace {
+
+/// A change must raise the least quality by more than this, so that changes end.
+constexpr double kGain = 1e-3;
+
+double mean_edge(const CellMesh& mesh, int v) {
+  double sum = 0;
+  int n = 0;
+  for (const int c : mesh.at(v))
+    for (int k = 0; k < n_corners(mesh.cells()[c]); ++k)
+      if (const int w = mesh.cells()[c][k]; w != v) sum += norm(mesh.points()[w] - mesh.points()[v]), ++n;
+  return n > 0 ? sum / n : 0;
+}
+
+/// Returns the gradients of the qualities of the cells at a vertex that are in a band above the least, by
+/// differences over a length.
+std::vector<Vec3> gradients(const CellMesh& mesh, int v, double band, double length) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::pair<double, int>> worst;
+  const double least = mesh.least(mesh.at(v));
+  for (const int c : mesh.at(v))
+    if (mesh.quality(c) < least + band) worst.emplace_back(mesh.quality(c), c);
+  std::ranges::sort(worst);
+  if (worst.size() > kMost) worst.resize(kMost);
+  std::vector<Vec3> all;
+  for (const auto& [quality, c] : worst) {
+    const auto slope = [&, c = c, q = quality](const Vec3& step) {
+      return (mesh.quality_with(mesh.cells()[c], v, mesh.points()[v] + step) - q) / length;
+    };
+    all.push_back({slope({length, 0, 0}), slope({0, length, 0}), slope({0, 0, length})});
+  }
+  return all;
+}
+
+/// Returns the shortest vector of the convex hull of vectors, by the method of Frank and Wolfe.
+Vec3 shortest(const std::vector<Vec3>& vectors) {
+  constexpr int kSteps = 30;
+  Vec3 at = vectors[0];
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 to = *std::ranges::min_element(vectors, {}, [&](const Vec3& g) { return dot(g, at); });
+    const Vec3 way = at - to;
+    const double length2 = dot(way, way), down = dot(at, way);
+    if (!(down > 1e-12 * length2)) break;
+    at = at - std::min(1.0, down / length2) * way;
+  }
+  return at;
+}
+
+double least_with(const CellMesh& mesh, int v, const Vec3& x, double enough) {
+  double least = 1;
+  for (const int c : mesh.at(v)) {
+    least = std::min(least, mesh.quality_with(mesh.cells()[c], v, x));
+    if (least <= enough) break;
+  }
+  return least;
+}
+
+/// Replaces the tetrahedra around an edge by tetrahedra without it, if that raises their least quality.
+bool remove_edge(CellMesh& mesh, int a, int b) {
+  constexpr int kMost = 8;
+  bool is_open = false;
+  const std::vector<int> ring = mesh.ring(a, b, is_open);
+  const int n = static_cast<int>(ring.size());
+  if (is_open || n < 3 || n > kMost) return false;
+  const auto pair_of = [&](int i, int j, int k) {
+    return std::array<Cell, 2>{Cell{ring[i], ring[j], ring[k], b, -1},
+                               Cell{ring[i], ring[k], ring[j], a, -1}};
+  };
+  // The best triangulation of the ring's part from i to j, by dynamic programming.
+  double best[kMost][kMost];
+  int middle[kMost][kMost];
+  for (int length = 1; length < n; ++length)
+    for (int i = 0; i + length < n; ++i) {
+      const int j = i + length;
+      best[i][j] = length == 1 ? 1 : -2;
+      for (int k = i + 1; k < j; ++k) {
+        const auto pair = pair_of(i, k, j);
+        const double value =
+            std::min({best[i][k], best[k][j], mesh.quality_with(pair[0]), mesh.quality_with(pair[1])});
+        if (value > best[i][j]) best[i][j] = value, middle[i][j] = k;
+      }
+    }
+  const std::vector<int> old = mesh.cells_with({a, b});
+  if (!(best[0][n - 1] > mesh.least(old) + kGain)) return false;
+  std::vector<Cell> by;
+  std::vector<std::pair<int, int>> parts = {{0, n - 1}};
+  while (!parts.empty()) {
+    const auto [i, j] = parts.back();
+    parts.pop_back();
+    if (j - i < 2) continue;
+    const int k = middle[i][j];
+    for (const Cell& cell : pair_of(i, k, j)) by.push_back(cell);
+    parts.insert(parts.end(), {{i, k}, {k, j}});
+  }
+  return mesh.replace(old, by, kGain);
+}
+
+/// Moves a free vertex onto another one, and removes the cells between.
+bool collapse(CellMesh& mesh, int u, int v) {
+  std::vector<Cell> by;
+  const std::vector<int> old = mesh.at(u);
+  for (const int c : old) {
+    Cell cell = mesh.cells()[c];
+    if (has_corner(cell, v)) {
+      if (cell[4] >= 0) return false;
+      continue;
+    }
+    std::ranges::replace(cell, u, v);
+    by.push_back(cell);
+  }
+  return mesh.replace(old, by, kGain);
+}
+
+/// Tries all changes at a cell. Returns whether one was made.
+bool improve_cell(CellMesh& mesh, int c, double wanted) {
+  const Cell cell = mesh.cells()[c];
+  const int n = n_corners(cell);
+  bool moved = false;
+  for (int k = 0; k < n; ++k)
+    if (mesh.is_free(cell[k])) moved |= relocate(mesh, cell[k]) > kGain;
+  if (mesh.quality(c) >= wanted) return true;
+  for (int i = 0; i < n && n == 4; ++i)
+    for (int j = i + 1; j < n; ++j)
+      if (remove_edge(mesh, cell[i], cell[j])) return true;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (i != j && mesh.is_free(cell[i]) && collapse(mesh, cell[i], cell[j])) return true;
+  return moved;
+}
+
+}  // namespace
+
+double relocate(CellMesh& mesh, int v) {
+  constexpr int kMoves = 12, kHalvings = 8, kHalvingsIfBad = 24;
+  constexpr double kFirst = 0.25, kDifference = 1e-6, kBand = 0.05, kLeastBand = 1e-5, kBad = 0.05;
+  const double before = mesh.least(mesh.at(v)), length = mean_edge(mesh, v);
+  double band = kBand;
+  for (int i = 0; i < kMoves && length > 0; ++i) {
+    const Vec3 way = shortest(gradients(mesh, v, band, kDifference * length));
+    const double steepness = norm(way), least = mesh.least(mesh.at(v));
+    const double wanted = least + kGain * std::min(0.25, std::abs(least));
+    double step = kFirst * length;
+    int left = steepness > 0 ? least > kBad ? kHalvings : kHalvingsIfBad : 0;
+    for (; left > 0; --left, step /= 2) {
+      const Vec3 x = mesh.points()[v] + (step / steepness) * way;
+      if (!(least_with(mesh, v, x, wanted) > wanted)) continue;
+      mesh.move(v, x);
+      break;
+    }
+    if (left > 0) continue;
+    if (least > kGain || band < kLeastBand) break;
+    band /= 10;  // needles have qualities that change over shorter lengths
+  }
+  return mesh.least(mesh.at(v)) - before;
+}
+
+void improve(CellMesh& mesh, double wanted) {
+  constexpr int kRounds = 10;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::pair<double, int>> bad;
+    for (int c = 0; c < static_cast<int>(mesh.cells().size()); ++c)
+      if (mesh.is_alive(c) && mesh.quality(c) < wanted) bad.emplace_back(mesh.quality(c), c);
+    std::ranges::sort(bad);
+    bool changed = false;
+    for (const auto& [quality, c] : bad)
+      if (mesh.is_alive(c) && mesh.quality(c) < wanted) changed |= improve_cell(mesh, c, wanted);
+    if (!changed) break;
+  }
+}
+
+}  // namespace delquad

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/tetrahedralise.h"
+
+#define TETLIBRARY
+#include <tetgen.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "base/orientation.h"
+#include "base/parallel.h"
+#include "base/process.h"
+#include "base/sort_unique.h"
+
+namespace delquad {
+
+namespace {
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double));
+
+/// Circumradii below 1.4 edges and dihedral angles above 16 degrees where possible, no points on the
+/// boundary, all points kept, no output.
+constexpr char kSwitches[] = "pYq1.4/16JQ";
+
+/// Returns the new points and the tetrahedra as bytes; empty: TetGen refuses the input.
+std::string run_tetgen(const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles,
+                       const std::vector<Vec3>& holes) {
+  // The structure frees its lists itself, by delete[].
+  const auto copy = [](const std::vector<Vec3>& from) {
+    double* to = new double[3 * from.size()];
+    std::memcpy(to, from.data(), from.size() * sizeof(Vec3));
+    return to;
+  };
+  tetgenio in, out;
+  in.numberofpoints = static_cast<int>(points.size());
+  in.pointlist = copy(points);
+  if (!holes.empty()) {
+    in.numberofholes = static_cast<int>(holes.size());
+    in.holelist = copy(holes);
+  }
+  in.numberoffacets = static_cast<int>(triangles.size());
+  in.facetlist = new tetgenio::facet[triangles.size()];
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto& t = triangles[i];
+    tetgenio::init(&in.facetlist[i]);
+    in.facetlist[i].numberofpolygons = 1;
+    in.facetlist[i].polygonlist = new tetgenio::polygon[1]{{new int[3]{t[0], t[1], t[2]}, 3}};
+  }
+  std::string switches = kSwitches;
+  try {
+    tetrahedralize(switches.data(), &in, &out);
+  } catch (int) {
+    return "";
+  }
+  const auto bytes = [](const auto* from, int n) {
+    return std::string(reinterpret_cast<const char*>(from), n * sizeof(*from));
+  };
+  return bytes(&out.numberofpoints, 1) + bytes(out.pointlist, 3 * out.numberofpoints) +
+         bytes(out.tetrahedronlist, 4 * out.numberoftetrahedra);
+}
+
+}  // namespace
+
+std::optional<Tetrahedra> tetrahedralise(const std::vector<Vec3>& points,
+                                         const std::vector<std::array<int, 3>>& triangles,
+                                         const std::vector<Vec3>& holes) {
+  constexpr unsigned kSeconds = 60, kTrianglesPerSecond = 1000;  // a hundred times its usual time
+  std::vector<int> used;
+  for (const auto& t : triangles) used.insert(used.end(), t.begin(), t.end());
+  sort_unique(used);
+  std::vector<Vec3> corners;
+  for (const int v : used) corners.push_back(points[v]);
+  std::vector<std::array<int, 3>> numbered = triangles;
+  for (auto& t : numbered)
+    for (int& v : t) v = static_cast<int>(std::ranges::lower_bound(used, v) - used.begin());
+  finish_threads();
+  const auto bytes = call_in_child([&] { return run_tetgen(corners, numbered, holes); },
+                                   kSeconds + static_cast<unsigned>(triangles.size()) / kTrianglesPerSecond);
+  int n = 0;
+  if (!bytes || bytes->size() < sizeof n) return std::nullopt;
+  std::memcpy(&n, bytes->data(), sizeof n);
+  const int n_used = static_cast<int>(used.size()), n_given = static_cast<int>(points.size());
+  if (n < n_used) return std::nullopt;
+  Tetrahedra result{points, {}};
+  result.points.resize(n_given + n - n_used);
+  const char* at = bytes->data() + sizeof n + n_used * sizeof(Vec3);
+  std::memcpy(result.points.data() + n_given, at, (n - n_used) * sizeof(Vec3));
+  at += (n - n_used) * sizeof(Vec3);
+  result.cells.resize((bytes->data() + bytes->size() - at) / sizeof(result.cells[0]));
+  std::memcpy(result.cells.data(), at, result.cells.size() * sizeof(result.cells[0]));
+  for (auto& c : result.cells)
+    for (int& v : c) v = v < n_used ? used[v] : v - n_used + n_given;
+  const auto& p = result.points;
+  for (auto& c : result.cells)
+    if (orient3d(p[c[0]], p[c[1]], p[c[2]], p[c[3]]) < 0) std::swap(c[0], c[1]);
+  return result;
+}
+
+}  // namespace delquad

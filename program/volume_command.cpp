@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <map>
+
+#include "base/context.h"
+#include "base/located.h"
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "delquad/error.h"
+#include "delquad/hexahedra.h"
+#include "experiments/console/progress.h"
+#include "io/cases/case_file.h"
+#include "io/mesh_formats.h"
+#include "io/mesh_io.h"
+#include "program/commands.h"
+#include "program/mesh_options.h"
+#include "program/options.h"
+#include "program/print.h"
+
+namespace delquad {
+namespace {
+
+struct VolumeArguments : MeshArguments {
+  std::filesystem::path from;  ///< file of a skin; empty: the skin of the model
+  VolumeOptions volume;
+};
+
+/// Returns the quads of the model, and tells warnings.
+Mesh mesh_skin(const VolumeArguments& arguments, Progress& progress) {
+  Case c = read_model_case(arguments.model);
+  set_problem(arguments, c);
+  if (c.order > 1) refuse("--order {}: volumes have cells of order 1: expected 1", c.order);
+  MeshResult result = mesh(std::move(c), arguments.pipeline.value_or(arguments.quality),
+                           {.progress = [&](const ProgressReport& report) { progress.step(report.stage); }});
+  progress.warn(result.warnings);
+  return std::move(result.mesh);
+}
+
+int volume_command(const VolumeArguments& arguments) {
+  const Stopwatch command;
+  const RunScope run({.threads = arguments.threads});
+  check_cell_format(arguments.output, arguments.msh);
+  if (arguments.model.empty() == arguments.from.empty())
+    throw InputError("expected a model, or --from with a file of its quads");
+  check_distinct({{"the model", arguments.model},
+                  {"--from", arguments.from},
+                  {"-o", arguments.output},
+                  {"--json", arguments.json}});
+  check_output(arguments.output);
+  if (!arguments.json.empty()) check_output(arguments.json);
+  const std::string name = arguments.from.empty() ? arguments.model.string() : arguments.from.string();
+  Progress progress;
+  ReadNotes notes;
+  const Mesh skin =
+      arguments.from.empty() ? mesh_skin(arguments, progress) : read_mesh(arguments.from, &notes);
+  VolumeOptions options = arguments.volume;
+  options.max_elements = arguments.max_elements;
+  const Mesh cells = located(name, [&] { return fill_skin(skin, options, &notes); });
+  for (const std::string& lost : renamed_in_file(arguments.output, cells))
+    notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + lost);
+  for (const std::string& note : notes) progress.message("note: " + note);
+  const CellMeasures measures = measure(cells);
+  write_mesh(arguments.output, cells, arguments.msh);
+  if (!arguments.json.empty()) write_text_file(arguments.json, cells_record(name, cells, measures));
+  progress.finish();
+  fmt::print("{}: {} in {:.2f} s\n", arguments.output.string(), show_counts(cells), command.seconds());
+  print_cells(cells, measures);
+  print_names(cells);
+  return kDone;
+}
+
+}  // namespace
+
+void add_volume(CLI::App& app, Commands& commands) {
+  const auto [volume, arguments] = add_command(
+      app, commands, "volume", "Fill a closed model: pyramids and tetrahedra on quads", volume_command, true);
+  CLI::Option* model = add_model(volume, arguments);
+  volume->add_option("--from", arguments.from, "fill these closed quads instead, which stay as they are")
+      ->excludes(model);
+  volume->add_option("-o,--output", arguments.output, "cells to write ('delquad formats' lists files)")
+      ->required();
+  static const std::map<std::string, VolumeCells> kinds = {
+      {"pyramids-and-tets", VolumeCells::kPyramidsAndTets}, {"tets", VolumeCells::kTets}};
+  volume
+      ->add_option("--cells", arguments.volume.cells,
+                   "'pyramids-and-tets' (the default) keep the quads; 'tets' split each into two triangles")
+      ->transform(CLI::CheckedTransformer(kinds).description("pyramids-and-tets or tets"));
+  volume->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
+  volume->add_option("--json", arguments.json, "record to write");
+  add_max_elements(*volume, arguments.max_elements, "refuse to make more cells than this");
+  add_threads(*volume, arguments.threads);
+}
+
+}  // namespace delquad

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/half_edges.h"
+#include "tests/features/volume/volume_checks.h"
+
+namespace delquad::testing_support {
+namespace {
+
+constexpr VolumeOptions kTets{VolumeCells::kTets};
+
+/// Fills a skin by both kinds of cells; `volume`: the expected one.
+void expect_filled(const Mesh& skin, double volume, std::size_t bodies = 1) {
+  const Mesh mesh = fill_skin(skin);
+  expect_sound_cells(mesh, volume);
+  EXPECT_EQ(mesh.volumes.size(), bodies);
+  ASSERT_EQ(mesh.quads.size(), skin.quads.size());
+  EXPECT_TRUE(std::equal(skin.points.begin(), skin.points.end(), mesh.points.begin()));
+  const Mesh tets = fill_skin(skin, kTets);
+  EXPECT_TRUE(tets.pyramids.empty() && tets.quads.empty());
+  EXPECT_EQ(tets.triangles.size(), 2 * skin.quads.size());
+  expect_sound_cells(tets, measure(tets).volume);
+  EXPECT_NEAR(measure(tets).volume, volume, 0.01 * volume);
+}
+
+double volume_of(const Mesh& skin) {
+  double sum = 0;
+  for (const auto& [a, b, c, d] : skin.quads) {
+    const auto& p = skin.points;
+    const Vec3 middle = 0.25 * (p[a] + p[b] + (p[c] + p[d]));
+    sum += dot(cross(p[c] - p[a], p[d] - p[b]), middle) / 6;
+  }
+  return sum;
+}
+
+TEST(FillSkin, FillsBoxesAndBalls) {
+  const auto cube = [](const Vec3& p) { return p; };
+  expect_filled(cube_surface(1, cube), 8);
+  expect_filled(cube_surface(5, cube), 8);
+  expect_filled(cube_surface(6, [](const Vec3& p) { return Vec3{p.x, p.y, 0.02 * p.z}; }), 0.16);
+  const auto cylinder = [](const Vec3& p) {
+    return Vec3{p.x * std::sqrt(1 - p.y * p.y / 2), p.y * std::sqrt(1 - p.x * p.x / 2), p.z};
+  };
+  const Mesh round = cube_surface(6, cylinder), ball = sphere(5, 2);
+  expect_filled(round, volume_of(round));
+  expect_filled(ball, volume_of(ball));
+}
+
+TEST(FillSkin, FillsConcaveBodies) {
+  expect_filled(skin_of_labels(4, [](int i, int j, int) { return i < 2 || j < 2; }), 48);
+  expect_filled(skin_of_labels(3, [](int i, int j, int k) { return (i + j + k) % 3 != 2 || k == 1; }), 21);
+}
+
+TEST(FillSkin, LeavesCavitiesOut) {
+  ReadNotes notes;
+  const Mesh skin = skin_of_labels(5, [](int i, int j, int k) { return i != j || j != k || i % 2 == 0; });
+  expect_filled(skin, 123);
+  fill_skin(skin, {}, &notes);
+  EXPECT_EQ(notes.size(), 2u);
+}
+
+TEST(FillSkin, FillsBodiesThatShareQuads) {
+  const Mesh skin = skin_of_labels(4, [](int i, int, int k) { return k == 3 && i > 0 ? 0 : i < 2 ? 1 : 2; });
+  expect_filled(skin, 52, 2);
+  const Mesh mesh = fill_skin(skin);
+  EXPECT_EQ(mesh.volumes[mesh.tet_volume[0]].names.size(), 1u);
+  EXPECT_NE(mesh.volumes[0].names, mesh.volumes[1].names);
+  expect_filled(skin_of_labels(3, [](int i, int j, int k) { return i * j * k == 1 ? 2 : 1; }), 27, 2);
+}
+
+TEST(FillSkin, TurnsQuadsOutwards) {
+  Mesh skin = cube_surface(3, [](const Vec3& p) { return p; });
+  const Mesh mesh = fill_skin(skin);
+  EXPECT_EQ(mesh.quads, skin.quads);
+  for (std::size_t i = 0; i < skin.quads.size(); i += 2) std::swap(skin.quads[i][1], skin.quads[i][3]);
+  EXPECT_EQ(fill_skin(skin).quads, mesh.quads);
+}
+
+TEST(FillSkin, RefusesOtherSkins) {
+  const auto refused = [](const Mesh& skin, std::initializer_list<const char*> parts,
+                          const VolumeOptions& options = {}) {
+    expect_input_error([&] { fill_skin(skin, options); }, parts);
+  };
+  const Mesh cube = cube_surface(3, [](const Vec3& p) { return p; });
+  refused(Mesh{}, {"no quads"});
+  refused(cube, {"54 quads", "--max-elements"}, {.max_elements = 50});
+  refused(cube, {"cells are needed", "--max-elements"}, {.max_elements = 60});
+  Mesh open = cube;
+  open.quads.pop_back(), open.quad_region.pop_back();
+  refused(open, {"open at the edge from (", "closed skin"});
+  Mesh odd = cube;
+  odd.triangles.push_back({0, 1, 2}), odd.triangle_region.push_back(0);
+  refused(odd, {"1 triangles", "quads alone"});
+  Mesh crossing = cube;
+  const int n = static_cast<int>(cube.points.size());
+  for (const Vec3& p : cube.points) crossing.points.push_back(p + Vec3{0.9, 0.8, 0.7});
+  for (const auto& [a, b, c, d] : cube.quads) crossing.quads.push_back({a + n, b + n, c + n, d + n});
+  crossing.quad_region.resize(crossing.quads.size(), 0);
+  refused(crossing, {"crosses itself at ("});
+}
+
+}  // namespace
+}  // namespace delquad::testing_support
