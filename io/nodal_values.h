@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/mesh/cell_shapes.h"
 #include "io/mesh_io.h"
 
 // This header chooses fields of files. Readers of fields and the program use it.
