@@ -284,6 +284,7 @@ class SurfaceSteps final : public ModelSteps {
     });
     for (const LeftOutFace& face : model_.left_out) failures_.add(face.face, face.reason);
     add_unflattened(flattening_, model_, failures_);
+    open_cracks(model_, flattening_.patches);
   }
 
   /// Meshes the curves once before, by sizes as they are, and makes these smaller in gaps.

@@ -235,11 +235,13 @@ SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model
 }
 
 LooseLine loose_line(const EmbeddedLine& line, const std::string& where) {
-  LooseLine loose{line.points, {}, line.where.empty() ? where : line.where, true};
+  LooseLine loose{line.points, {}, line.where.empty() ? where : line.where, true, line.is_crack};
   if (!line.name.empty()) loose.names = {line.name};
   loose.where += fmt::format(": the embedded {}{}", line.points.size() == 1 ? "point" : "polyline",
                              line.name.empty() ? "" : " '" + line.name + "'");
   if (line.points.empty()) throw InputError(loose.where + " has no points");
+  if (line.is_crack && line.points.size() == 1)
+    throw InputError(loose.where + " is no crack: expected a polyline");
   for (const Vec3& x : line.points)
     if (!(std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z)))
       throw InputError(loose.where + " has a coordinate that is not finite");

@@ -183,6 +183,10 @@ std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel
     view.patches.push_back(patch.boundary);
     view.patch_region.push_back(patch.map.face);
   }
+  for (const auto& lips : model.lips)
+    for (std::size_t c = 0; c < domain.chains.size(); ++c)
+      if (std::ranges::find(lips, domain.chains[c].curve) != lips.end())
+        for (const CurveNode& node : domain.nodes.on_curve[c]) view.on_crack.push_back(node.node);
   const SurfacePlaces places(model, domain);
   view.in_space = &places;
   const std::vector<LocalSize> fine = put_layers(problem, view, p);

@@ -78,7 +78,8 @@ inline constexpr auto kFields<MirrorPlane> = std::tuple(
 template <>
 inline constexpr auto kFields<EmbeddedLine> = std::tuple(inner("points", &EmbeddedLine::points),
                                                          inner("name", &EmbeddedLine::name),
-                                                         place(&EmbeddedLine::where));
+                                                         place(&EmbeddedLine::where),
+                                                         inner("crack", &EmbeddedLine::is_crack));
 template <>
 inline constexpr auto kFields<PartRule> = std::tuple(
     field("number", &PartRule::numbers, "numbers that 'delquad info' lists", {.least = 1}),
