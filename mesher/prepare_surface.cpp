@@ -240,7 +240,7 @@ class SurfaceSteps final : public ModelSteps {
       selected_.insert(model_.fine.regions[face].tag);
     if (problem_.metric.asks()) {
       asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
-      model_ = join_short_curves(problem_, *asked_, std::move(model_));
+      model_ = join_curves(problem_, *asked_, std::move(model_));
       asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
       return;
     }
@@ -256,7 +256,7 @@ class SurfaceSteps final : public ModelSteps {
     });
     p.settings.limits = limits_of(problem_.criteria, *asked_, model_.fine.points);
     if (least_length(problem_.criteria) != nullptr) shortest_ = p.settings.limits.shortest;
-    model_ = join_short_curves(problem_, *asked_, std::move(model_), shortest_);
+    model_ = join_curves(problem_, *asked_, std::move(model_), shortest_);
     washers_.plan(*asked_);
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
     washers_.cut();

@@ -111,7 +111,7 @@ inline constexpr auto kFields<SurfaceSpec> = std::tuple(
           {.option = "--keep"}),
     field("fill_holes", &SurfaceSpec::fill_holes, "diameter up to which holes are closed",
           {.above = 0, .option = "--fill-holes"}),
-    field("simplify", &SurfaceSpec::simplify, "sizes within which polylines lose points",
+    field("simplify", &SurfaceSpec::simplify, "sizes within which polylines and chains of curves lose points",
           {.least = 0, .option = "--simplify"}),
     field("feature_angle", &SurfaceSpec::feature_angle, "degrees by which triangles turn at a curve",
           {.above = 0, .most = 180, .option = "--feature-angle"}),
