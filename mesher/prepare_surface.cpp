@@ -89,15 +89,15 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
                              const std::vector<CurveDivision>& divisions, SurfaceWashers& washers,
-                             const MappedSpec& mapped, const PeriodicSides& periodic,
-                             const CurveAgreement& agreement, Failures& failures) {
+                             const std::vector<LayerSpec>& layers, const MappedSpec& mapped,
+                             const PeriodicSides& periodic, const CurveAgreement& agreement,
+                             Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
       const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
-                                 divisions, periodic, mapped, agreement,
-                                 layered_curves(model.fine, problem.layers));
+                                 divisions, periodic, mapped, agreement, layered_curves(model.fine, layers));
     } catch (const FaceError& error) {
       if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());
@@ -151,6 +151,7 @@ class SurfaceSteps final : public ModelSteps {
     check_count(expected_quads(model_.fine, SurfaceSize(asked_), {}, nullptr, p.unselected), problem_);
     cut_ = cut_at_planes(problem_, model_, asked_);
     if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_);
+    if (cut_) layers_ = layers_of_part(problem_.layers, *cut_);
     if (cut_) model_ = std::move(cut_->half.model);
     if (problem_.metric.asks())
       metric_ = wanted_metric(problem_, model_, hints_.spots);
@@ -273,12 +274,19 @@ class SurfaceSteps final : public ModelSteps {
     agreement.shortest = shortest_;
     return mesh_curves_of(model_, std::move(flattening), other ? *other : size,
                           wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_,
-                          washers_, mapped_, periodic_, agreement, failures_);
+                          washers_, layers_, mapped_, periodic_, agreement, failures_);
   }
 
   void lay_flat() {
     refine_for_size(model_, wanted_);
     periodic_ = find_periodic_sides(model_, problem_.periodic, of_periodic_);
+    const bool has_divided = std::ranges::any_of(periodic_.curves, [&](const PeriodicPair& pair) {
+      return std::ranges::find(divisions_, pair.from, &CurveDivision::name) != divisions_.end();
+    });
+    if (!problem_.layers.empty() && (has_divided || !periodic_.faces.empty()))
+      throw InputError(problem_.layers[0].where +
+                       ": layers on a surface go neither with periodic faces nor with 'divide' of periodic "
+                       "curves: expected one of the two");
     flattening_ = located(problem_.where, [&] {
       return metric_ ? flatten_by_metric(model_, *wanted_.metric) : flatten_periodic(model_, periodic_);
     });
@@ -359,8 +367,14 @@ class SurfaceSteps final : public ModelSteps {
   }
 
   void put_layers_on(MeshingSetup& p) {
-    if (problem_.layers.empty()) return;
-    const std::vector<LocalSize> fine = put_layers(problem_, model_, surface_->domain, p);
+    if (layers_.empty()) return;
+    const std::vector<LocalSize> fine = put_layers(layers_, problem_.mapped, model_, surface_->domain, p);
+    if (cut_) {
+      auto whole = std::make_shared<LayerReport>(*p.layers);
+      for (int* n : {&whole->count.columns, &whole->count.quads, &whole->count.fans})
+        *n <<= cut_->planes.count();
+      p.layers = std::move(whole);
+    }
     p.size.expected_quads += p.layers->count.quads;
     check_count(p.size.expected_quads, problem_);
     if (fine.empty()) return;
@@ -399,6 +413,7 @@ class SurfaceSteps final : public ModelSteps {
   std::optional<CutSurface> cut_;  ///< of a symmetric surface, of which `model_` is a part
   std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
   MappedSpec mapped_ = problem_.mapped;
+  std::vector<LayerSpec> layers_ = problem_.layers;  ///< of the part
   SurfaceWashers washers_{problem_, model_, divisions_, mapped_};
   WantedSize wanted_;
   std::optional<WantedMetric> metric_;  ///< in place of a size
