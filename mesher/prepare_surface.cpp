@@ -260,7 +260,7 @@ class SurfaceSteps final : public ModelSteps {
     model_ = join_curves(problem_, *asked_, std::move(model_), shortest_);
     washers_.plan(*asked_);
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
-    washers_.cut();
+    washers_.divide_fillets();
   }
 
   SurfaceDomain curves_by(const SurfaceSize& size, Flattening flattening) {
@@ -328,7 +328,7 @@ class SurfaceSteps final : public ModelSteps {
   std::vector<char> unselected_faces() const {
     std::vector<char> unselected;
     for (const Entity& face : model_.fine.regions)
-      unselected.push_back(!selected_.empty() && !selected_.contains(washers_.face_of(face.tag)));
+      unselected.push_back(!selected_.empty() && !selected_.contains(face.tag));
     return std::ranges::count(unselected, 1) > 0 ? unselected : std::vector<char>();
   }
 
@@ -368,7 +368,19 @@ class SurfaceSteps final : public ModelSteps {
 
   void put_layers_on(MeshingSetup& p) {
     if (layers_.empty()) return;
-    const std::vector<LocalSize> fine = put_layers(layers_, problem_.mapped, model_, surface_->domain, p);
+    const bool has_rows = layers_.size() > problem_.layers.size();
+    const auto before = has_rows ? std::optional(surface_->domain) : std::nullopt;
+    std::vector<LocalSize> fine;
+    try {
+      fine = put_layers(layers_, problem_.mapped, model_, surface_->domain, p);
+    } catch (const InputError& error) {
+      if (!has_rows) throw;
+      p.warnings.push_back(
+          {"holes without rows", 1, fmt::format("the model gets no rows: {} [no-rows]", error.what())});
+      layers_ = problem_.layers;
+      surface_->domain = *before;
+      return put_layers_on(p);
+    }
     if (cut_) {
       auto whole = std::make_shared<LayerReport>(*p.layers);
       for (int* n : {&whole->count.columns, &whole->count.quads, &whole->count.fans})
@@ -413,8 +425,8 @@ class SurfaceSteps final : public ModelSteps {
   std::optional<CutSurface> cut_;  ///< of a symmetric surface, of which `model_` is a part
   std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
   MappedSpec mapped_ = problem_.mapped;
-  std::vector<LayerSpec> layers_ = problem_.layers;  ///< of the part
-  SurfaceWashers washers_{problem_, model_, divisions_, mapped_};
+  std::vector<LayerSpec> layers_ = problem_.layers;  ///< and rows around holes
+  SurfaceWashers washers_{problem_, model_, divisions_, mapped_, layers_};
   WantedSize wanted_;
   std::optional<WantedMetric> metric_;  ///< in place of a size
   PeriodicSides periodic_;
