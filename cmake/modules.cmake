@@ -121,7 +121,8 @@ delquad_module(features/grids LINKS base base/matching geometry/mesh geometry/pl
                smoothing/optimisation
                metrics)
 delquad_module(features/washers COLD LINKS base geometry/mesh geometry/planar geometry/surface algorithms/fields)
-delquad_module(features/layers COLD LINKS base geometry/mesh geometry/planar geometry/patches features/sizes features/grids)
+delquad_module(features/layers COLD LINKS base geometry/mesh geometry/planar geometry/patches features/sizes features/symmetry
+               features/grids)
 delquad_module(features/scaling COLD LINKS base geometry/mesh algorithms/fields geometry/patches features/layers)
 delquad_module(features/thin COLD LINKS base geometry/mesh geometry/planar geometry/patches features/sizes)
 delquad_module(features/naming COLD LINKS base geometry/mesh geometry/surface)

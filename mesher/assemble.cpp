@@ -80,6 +80,7 @@ Mesh assemble(const MeshingSetup& prepared, const std::vector<Vec3>& nodes,
   Mesh mesh = prepared.boundary;
   mesh.points = nodes;
   keep_elements(mesh.quads, mesh.quad_region, [&](std::size_t q) { return !left_out[mesh.quad_region[q]]; });
+  const std::size_t n_in_layers = mesh.quads.size();
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const PatchMesh& patch = patches[i];
     const int region = prepared.patches[i].region;
@@ -96,7 +97,8 @@ Mesh assemble(const MeshingSetup& prepared, const std::vector<Vec3>& nodes,
     const SurfaceDomain& domain = prepared.surface->domain;
     add_caps(domain, patches, left_out, mesh);
     add_face_images(left_out, mesh);
-    if (prepared.surface->mirrored) mesh = mirror_mesh(*prepared.surface->mirrored, std::move(mesh));
+    if (prepared.surface->mirrored)
+      mesh = mirror_mesh(*prepared.surface->mirrored, std::move(mesh), n_in_layers);
     if (!domain.caps.empty() || prepared.layers) drop_unused_points(mesh);
   }
   if (std::ranges::find(left_out, 1) != left_out.end()) {

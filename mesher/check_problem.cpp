@@ -229,16 +229,18 @@ void check_problem(const MeshProblem& problem) {
   check_described(problem, problem.where);
   std::visit([&](const auto& model) { check(model, problem.where); }, problem.model);
   const bool in_plane = kind_of(problem.model).in_plane;
-  if (!problem.layers.empty() && !in_plane &&
-      (is_symmetric(problem) || !problem.periodic.empty() || problem.metric.asks()))
-    throw InputError(
-        problem.layers[0].where +
-        ": layers on a surface go neither with symmetry, nor with periodic sides, nor with a metric");
+  if (!problem.layers.empty() && !in_plane && problem.metric.asks())
+    throw InputError(problem.layers[0].where + ": layers on a surface do not go with a metric");
   for (const SymmetryPlane& plane : problem.symmetry.planes)
     if (in_plane && !(std::hypot(plane.normal.x, plane.normal.y) > 0))
       throw InputError(
           problem.symmetry.where +
           ": the normal of a plane of symmetry has no length in the plane: expected x or y other than 0");
+  for (const EmbeddedLine& line : problem.surface.embed)
+    if (line.is_crack && is_symmetric(problem))
+      throw InputError(
+          fmt::format("{}: cracks of surfaces do not go with symmetry ({}): expected one of the two",
+                      line.where, problem.symmetry.where));
   check(problem.cross, problem.metric.asks());
   check_washers(problem);
   check_faces(problem);

@@ -148,7 +148,7 @@ class PlanarSteps final : public ModelSteps {
     for (const std::string& note : domain_.notes) p.warnings.emplace_back(note);
     if (model_ != nullptr || lines_ != nullptr) warn_of_gaps(domain_, p.warnings);
     if (!problem_.layers.empty()) {
-      const std::vector<LocalSize> fine = put_layers(problem_, domain_, p);
+      const std::vector<LocalSize> fine = put_layers(problem_.layers, problem_.mapped, domain_, p);
       if (!fine.empty() && !p.size.asked) p.size.asked = p.size.field;
       if (!fine.empty()) p.size.field = finer_near(p.size.field, fine);
     } else if (model_ != nullptr && curve_options(problem_.options).thin_rows) {

@@ -89,15 +89,15 @@ void add_unflattened(const Flattening& flattening, const SurfaceModel& model, Fa
 SurfaceDomain mesh_curves_of(const SurfaceModel& model, Flattening flattening, const SurfaceSize& size,
                              const SizeField* asked, const MeshProblem& problem,
                              const std::vector<CurveDivision>& divisions, SurfaceWashers& washers,
-                             const MappedSpec& mapped, const PeriodicSides& periodic,
-                             const CurveAgreement& agreement, Failures& failures) {
+                             const std::vector<LayerSpec>& layers, const MappedSpec& mapped,
+                             const PeriodicSides& periodic, const CurveAgreement& agreement,
+                             Failures& failures) {
   const auto solver = matching_solver(recombination_options(problem.options).solver, problem.options);
   while (!flattening.patches.empty()) {
     try {
       const bool may_repeat = failures.are_left_out() || washers.can_give_way();
       return make_surface_domain(model, may_repeat ? flattening : std::move(flattening), size, *solver, asked,
-                                 divisions, periodic, mapped, agreement,
-                                 layered_curves(model.fine, problem.layers));
+                                 divisions, periodic, mapped, agreement, layered_curves(model.fine, layers));
     } catch (const FaceError& error) {
       if (washers.give_way(error)) continue;
       failures.add(error.face(), error.what());
@@ -151,6 +151,7 @@ class SurfaceSteps final : public ModelSteps {
     check_count(expected_quads(model_.fine, SurfaceSize(asked_), {}, nullptr, p.unselected), problem_);
     cut_ = cut_at_planes(problem_, model_, asked_);
     if (cut_) divisions_ = divisions_of_part(problem_.divisions, *cut_);
+    if (cut_) layers_ = layers_of_part(problem_.layers, *cut_);
     if (cut_) model_ = std::move(cut_->half.model);
     if (problem_.metric.asks())
       metric_ = wanted_metric(problem_, model_, hints_.spots);
@@ -240,7 +241,7 @@ class SurfaceSteps final : public ModelSteps {
       selected_.insert(model_.fine.regions[face].tag);
     if (problem_.metric.asks()) {
       asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
-      model_ = join_short_curves(problem_, *asked_, std::move(model_));
+      model_ = join_curves(problem_, *asked_, std::move(model_));
       asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
       return;
     }
@@ -256,10 +257,10 @@ class SurfaceSteps final : public ModelSteps {
     });
     p.settings.limits = limits_of(problem_.criteria, *asked_, model_.fine.points);
     if (least_length(problem_.criteria) != nullptr) shortest_ = p.settings.limits.shortest;
-    model_ = join_short_curves(problem_, *asked_, std::move(model_), shortest_);
+    model_ = join_curves(problem_, *asked_, std::move(model_), shortest_);
     washers_.plan(*asked_);
     asked_ = imprint_named(problem_.size.named, std::move(asked_), model_, p.warnings);
-    washers_.cut();
+    washers_.divide_fillets();
   }
 
   SurfaceDomain curves_by(const SurfaceSize& size, Flattening flattening) {
@@ -273,17 +274,25 @@ class SurfaceSteps final : public ModelSteps {
     agreement.shortest = shortest_;
     return mesh_curves_of(model_, std::move(flattening), other ? *other : size,
                           wanted_.curvature || metric_ ? nullptr : wanted_.base.get(), problem_, divisions_,
-                          washers_, mapped_, periodic_, agreement, failures_);
+                          washers_, layers_, mapped_, periodic_, agreement, failures_);
   }
 
   void lay_flat() {
     refine_for_size(model_, wanted_);
     periodic_ = find_periodic_sides(model_, problem_.periodic, of_periodic_);
+    const bool has_divided = std::ranges::any_of(periodic_.curves, [&](const PeriodicPair& pair) {
+      return std::ranges::find(divisions_, pair.from, &CurveDivision::name) != divisions_.end();
+    });
+    if (!problem_.layers.empty() && (has_divided || !periodic_.faces.empty()))
+      throw InputError(problem_.layers[0].where +
+                       ": layers on a surface go neither with periodic faces nor with 'divide' of periodic "
+                       "curves: expected one of the two");
     flattening_ = located(problem_.where, [&] {
       return metric_ ? flatten_by_metric(model_, *wanted_.metric) : flatten_periodic(model_, periodic_);
     });
     for (const LeftOutFace& face : model_.left_out) failures_.add(face.face, face.reason);
     add_unflattened(flattening_, model_, failures_);
+    open_cracks(model_, flattening_.patches);
   }
 
   /// Meshes the curves once before, by sizes as they are, and makes these smaller in gaps.
@@ -319,7 +328,7 @@ class SurfaceSteps final : public ModelSteps {
   std::vector<char> unselected_faces() const {
     std::vector<char> unselected;
     for (const Entity& face : model_.fine.regions)
-      unselected.push_back(!selected_.empty() && !selected_.contains(washers_.face_of(face.tag)));
+      unselected.push_back(!selected_.empty() && !selected_.contains(face.tag));
     return std::ranges::count(unselected, 1) > 0 ? unselected : std::vector<char>();
   }
 
@@ -358,8 +367,26 @@ class SurfaceSteps final : public ModelSteps {
   }
 
   void put_layers_on(MeshingSetup& p) {
-    if (problem_.layers.empty()) return;
-    const std::vector<LocalSize> fine = put_layers(problem_, model_, surface_->domain, p);
+    if (layers_.empty()) return;
+    const bool has_rows = layers_.size() > problem_.layers.size();
+    const auto before = has_rows ? std::optional(surface_->domain) : std::nullopt;
+    std::vector<LocalSize> fine;
+    try {
+      fine = put_layers(layers_, problem_.mapped, model_, surface_->domain, p);
+    } catch (const InputError& error) {
+      if (!has_rows) throw;
+      p.warnings.push_back(
+          {"holes without rows", 1, fmt::format("the model gets no rows: {} [no-rows]", error.what())});
+      layers_ = problem_.layers;
+      surface_->domain = *before;
+      return put_layers_on(p);
+    }
+    if (cut_) {
+      auto whole = std::make_shared<LayerReport>(*p.layers);
+      for (int* n : {&whole->count.columns, &whole->count.quads, &whole->count.fans})
+        *n <<= cut_->planes.count();
+      p.layers = std::move(whole);
+    }
     p.size.expected_quads += p.layers->count.quads;
     check_count(p.size.expected_quads, problem_);
     if (fine.empty()) return;
@@ -398,7 +425,8 @@ class SurfaceSteps final : public ModelSteps {
   std::optional<CutSurface> cut_;  ///< of a symmetric surface, of which `model_` is a part
   std::vector<CurveDivision> divisions_ = problem_.divisions;  ///< of the part
   MappedSpec mapped_ = problem_.mapped;
-  SurfaceWashers washers_{problem_, model_, divisions_, mapped_};
+  std::vector<LayerSpec> layers_ = problem_.layers;  ///< and rows around holes
+  SurfaceWashers washers_{problem_, model_, divisions_, mapped_, layers_};
   WantedSize wanted_;
   std::optional<WantedMetric> metric_;  ///< in place of a size
   PeriodicSides periodic_;

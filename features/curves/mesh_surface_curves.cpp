@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -222,6 +223,22 @@ Warning warn_of_spent_steps() {
           "may be irregular without need; wider faces or a larger size help [search-stopped]"};
 }
 
+/// Gives the second lips of cracks the nodes of the first ones.
+void pair_lips(const SurfaceModel& model, SurfaceCurves& curves) {
+  const auto chains_of = [&](int curve) {
+    std::vector<int> chains;
+    for (std::size_t c = 0; c < curves.chains.size(); ++c)
+      if (curves.chains[c].curve == curve) chains.push_back(static_cast<int>(c));
+    return chains;
+  };
+  for (const auto& [crack, lip] : model.lips) {
+    const std::vector<int> masters = chains_of(crack), chains = chains_of(lip);
+    assert(masters.size() == chains.size());
+    for (std::size_t k = 0; k < chains.size(); ++k)
+      curves.images.push_back({chains[k], masters[k], true, {}});
+  }
+}
+
 /// Takes pointed tips and sharp corners out of patches, and the nodes that this drops from their curves.
 class Capping {
  public:
@@ -329,6 +346,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   for (std::size_t c = 0; c < wanted.demands.size(); ++c)
     wanted.demands[c].most = most_edges(wanted.lengths[c], agreement.shortest);
   divide_curves(fine, curves, divisions, wanted);
+  pair_lips(model, curves);
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
@@ -378,6 +396,9 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   if (!divisions.empty()) warn_of_lost_nodes(fine, curves, wanted, divisions, domain);
   domain.boundary = boundary_mesh(fine, curves.chains, domain.nodes);
   add_pairs(curves, periodic, pairs.of_sides, domain);
+  std::erase_if(domain.boundary.periodic, [&](const PeriodicNodes& p) {
+    return std::ranges::find(model.lips, std::array{p.master, p.curve}) != model.lips.end();
+  });
   domain.chains = std::move(curves.chains);
   for (const auto& places : wanted.divided) domain.chain_stays.push_back(!places.empty());
   for (const ChainPair& pair : curves.images)

@@ -235,11 +235,13 @@ SurfaceModel make_surface(const MeshProblem& problem, const TriangleModel& model
 }
 
 LooseLine loose_line(const EmbeddedLine& line, const std::string& where) {
-  LooseLine loose{line.points, {}, line.where.empty() ? where : line.where, true};
+  LooseLine loose{line.points, {}, line.where.empty() ? where : line.where, true, line.is_crack};
   if (!line.name.empty()) loose.names = {line.name};
   loose.where += fmt::format(": the embedded {}{}", line.points.size() == 1 ? "point" : "polyline",
                              line.name.empty() ? "" : " '" + line.name + "'");
   if (line.points.empty()) throw InputError(loose.where + " has no points");
+  if (line.is_crack && line.points.size() == 1)
+    throw InputError(loose.where + " is no crack: expected a polyline");
   for (const Vec3& x : line.points)
     if (!(std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z)))
       throw InputError(loose.where + " has a coordinate that is not finite");
@@ -300,6 +302,8 @@ namespace {
 /// Degrees: curves that turn by more where they meet do not go on as one. Less than what makes a corner of a
 /// triangulation, since the points of a CAD model were put there.
 constexpr double kSmoothTurn = 20;
+/// Curves that are shorter, in sizes, are joined by default.
+constexpr double kShort = 0.25;
 /// A curve and its mirror image are of one length but for rounding: it should not part them where the length
 /// is a round number.
 constexpr double kRoundingMargin = 1 - 1e-6;
@@ -311,31 +315,38 @@ double least_at_corners(const SizeField& size, const SurfaceModel& model) {
   return least;
 }
 
-std::vector<char> named_curves(const MeshProblem& problem, const std::vector<Entity>& curves) {
-  std::vector<char> named;
-  for (const Entity& curve : curves) named.push_back(curve.names.empty() ? 0 : 1);
+/// Returns the curves whose names or numbers the problem has, and with `named` all with names.
+std::vector<char> curves_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
+                                   bool named) {
+  std::vector<char> stays;
+  for (const Entity& curve : curves) stays.push_back(named && !curve.names.empty());
   const auto add = [&](const std::string& name) {
-    for (const int c : entities_named(curves, "curve", name)) named[c] = 1;
+    for (const int c : entities_named(curves, "curve", name)) stays[c] = 1;
   };
   for (const CurveDivision& division : problem.divisions) add(division.name);
   for (const NamedSize& size : problem.size.named) add(size.name);
-  return named;
+  return stays;
 }
 
 }  // namespace
 
-SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
-                               double least) {
-  double part = curve_options(problem.options).join_below;
-  if (part == 0 || model.corners.empty() || !problem.periodic.empty() || !problem.mapped.corners.empty())
+SurfaceModel join_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
+                         double least) {
+  const std::optional<double> tolerance = problem.surface.simplify;
+  if (tolerance == 0 || model.corners.empty() || !problem.periodic.empty() || !problem.mapped.corners.empty())
     return model;
-  part = std::max(part, least);
-  const double length = kRoundingMargin * part * least_at_corners(size, model);
-  const std::vector<char> named = named_curves(problem, model.fine.curves);
+  if (tolerance) {
+    const std::vector<char> kept = curves_that_stay(problem, model.fine.curves, false);
+    model = simplify_curves(
+        std::move(model), [&, hint = -1](const Vec3& x) mutable { return *tolerance * size.at(x, hint); },
+        kept);
+  }
+  const double length = kRoundingMargin * std::max(kShort, least) * least_at_corners(size, model);
+  const std::vector<char> named = curves_that_stay(problem, model.fine.curves, true);
   const std::size_t n_warnings = model.warnings.size();
   model = merge_short_curves(std::move(model), length, {.feature_angle = kSmoothTurn}, named);
   for (std::size_t i = n_warnings; i < model.warnings.size(); ++i)
-    model.warnings[i].text += " (curves.join_below = 0 keeps them)";
+    model.warnings[i].text += " (--simplify 0 keeps them)";
   return model;
 }
 

@@ -29,12 +29,13 @@ double length_of_small(const MeshProblem& problem, std::span<const Vec3> points)
 KeptNames names_that_stay(const MeshProblem& problem, const std::vector<Entity>& curves,
                           const std::vector<Entity>& regions);
 
-/// Returns the model with short curves joined to curves that they continue, see merge_short_curves().
-/// Otherwise many short edges would end as many rows of quads. Short is a length below `curves.join_below`
-/// sizes, or below `least` if that is more; variable sizes count where they are least. Curves stay that have
-/// names or whose numbers the problem names. All curves stay if sides are periodic or corners of grids are
-/// given. Own method.
-SurfaceModel join_short_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
-                               double least = 0);
+/// Returns the model with fewer corners on chains of curves, by SurfaceSpec::simplify, see simplify_curves().
+/// If that is absent, short curves are joined to curves that they continue, see merge_short_curves().
+/// Otherwise many short edges would end as many rows of quads. Short is a length below a fourth of the size,
+/// or below `least` sizes if that is more; variable sizes count where they are least. Curves whose numbers
+/// the problem names stay, and short ones with names. All curves stay if sides are periodic or corners of
+/// grids are given. Own method.
+SurfaceModel join_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
+                         double least = 0);
 
 }  // namespace delquad

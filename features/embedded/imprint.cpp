@@ -485,8 +485,8 @@ class Imprinter {
       if (!goes_on) {
         Entity entity = mesh_.curves[first_curve_ + static_cast<int>(i)];
         entity.tag = mesh_.curves[first_curve_].tag + static_cast<int>(curves.size()) - first_curve_;
-        model_.embedded.push_back(
-            {static_cast<int>(curves.size()), pieces_[i].face, pieces_[i].line == &dangling_});
+        model_.embedded.push_back({static_cast<int>(curves.size()), pieces_[i].face,
+                                   pieces_[i].line == &dangling_, pieces_[i].line->is_crack});
         curves.push_back(std::move(entity));
       }
       renamed.push_back(static_cast<int>(curves.size()) - 1);

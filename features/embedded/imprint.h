@@ -6,6 +6,7 @@
 
 #include "delquad/fields.h"
 #include "geometry/planar/planar_model.h"
+#include "geometry/surface/flatten.h"
 #include "geometry/surface/surface_model.h"
 
 // This header makes points and lines part of a surface. The preparation uses it.
@@ -26,6 +27,10 @@ namespace delquad {
 /// points nearer to each other than a thousandth of the size. The last reason is a point with no room for a
 /// curve. The model's warnings name lines of its file that are left out.
 void imprint(SurfaceModel& model, const SizeField& size);
+
+/// Opens a flattened model along embedded cracks, with the points of its maps. Each crack becomes two curves,
+/// one of each side, which share its ends inside of faces (own method).
+void open_cracks(SurfaceModel& model, std::vector<FlatPatch>& maps);
 
 /// Imprints the loose lines and points of a model, and returns the size with all sizes by name, also of
 /// these. Throws InputError as imprint(), and for a name that no part has.

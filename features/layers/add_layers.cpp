@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "delquad/error.h"
 #include "features/layers/layer_builder.h"
+#include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/patches/patch_outline.h"
 #include "geometry/planar/domain_builder.h"
@@ -354,27 +355,23 @@ constexpr double kShortestAtFan = 1.0 / 60;
 /// Beyond this, solvers see the jump from the last layer to the quads beside it.
 constexpr double kLargeJump = 4;
 
-/// On surfaces of the patches that changed.
-std::vector<LocalSize> short_boundary_edges(const PlanarDomain& domain, const std::vector<int>& changed,
+/// On surfaces of the edges with nodes from `first_new` on.
+std::vector<LocalSize> short_boundary_edges(const PlanarDomain& domain, int first_new,
                                             const SizeField& size) {
   std::vector<LocalSize> spots;
   int hint = -1;
-  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
-    const PatchBoundary& patch = domain.patches[p];
-    if (domain.in_space != nullptr && std::ranges::find(changed, static_cast<int>(p)) == changed.end())
-      continue;
+  for (const PatchBoundary& patch : domain.patches)
     for (const auto& [i, j] : patch.edges) {
-      const Vec3 &a = domain.boundary.points[patch.point_node[i]],
-                 &b = domain.boundary.points[patch.point_node[j]];
+      const int v = patch.point_node[i], w = patch.point_node[j];
+      if (domain.in_space != nullptr && std::max(v, w) < first_new) continue;
+      const Vec3 &a = domain.boundary.points[v], &b = domain.boundary.points[w];
       const double length = norm(b - a);
       if (length < kShortFront * size.at(0.5 * (a + b), hint)) spots.push_back({a, b, length, length});
     }
-  }
   return spots;
 }
 
-void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::vector<Warning>& warnings) {
-  const std::string& where = problem.layers[0].where;
+void warn_of_layers(const std::string& where, const LayerReport& layers, std::vector<Warning>& warnings) {
   if (layers.count.least_scale < 1)
     warnings.emplace_back(
         fmt::format("{}: layers are lower where there is no room for them, down to {:.2g} of their height at "
@@ -388,28 +385,28 @@ void warn_of_layers(const MeshProblem& problem, const LayerReport& layers, std::
 }
 
 /// Regions that got layers are no grids any more. Throws InputError where they were asked to be.
-void drop_grids(const MeshProblem& problem, const LayerReport& layers, PlanarDomain& domain) {
+void drop_grids(const std::string& where, const MappedSpec& grids, const LayerReport& layers,
+                PlanarDomain& domain) {
   std::erase_if(domain.mapped, [&](const auto& mapped) {
     if (std::ranges::find(layers.patches, mapped.patch) == layers.patches.end()) return false;
     if (mapped.is_requested)
       throw InputError(fmt::format(
           "{}: layers stand in the grid '{}' ({}), or end on its sides: expected the one or the other, or "
           "layers 'into' other regions",
-          problem.layers[0].where, region_label(domain.boundary.regions[domain.patch_region[mapped.patch]]),
-          problem.mapped.where));
+          where, region_label(domain.boundary.regions[domain.patch_region[mapped.patch]]), grids.where));
     return true;
   });
 }
 
 /// Returns a background mesh of the parts of patches without layers; null on a surface.
-std::shared_ptr<const BackgroundMesh> mesh_rest(const MeshProblem& problem, const PlanarDomain& domain,
+std::shared_ptr<const BackgroundMesh> mesh_rest(std::span<const LayerSpec> layers, const PlanarDomain& domain,
                                                 const std::vector<int>& changed) {
   const auto no_place = [&](const std::string& why) {
     std::vector<std::string> on;
-    for (const LayerSpec& layer : problem.layers) on.insert(on.end(), layer.on.begin(), layer.on.end());
+    for (const LayerSpec& layer : layers) on.insert(on.end(), layer.on.begin(), layer.on.end());
     return InputError(
         fmt::format("{}: there is no place for the layers on '{}': beside them, {} [no-place-for-layers]",
-                    problem.layers[0].where, fmt::join(on, "', '"), why));
+                    layers[0].where, fmt::join(on, "', '"), why));
   };
   for (const int p : changed)
     if (domain.in_space != nullptr && !meshable(domain.patches[p]))
@@ -445,12 +442,14 @@ std::vector<LocalSize> fan_spots(const PlanarDomain& domain, std::span<const Lay
   return spots;
 }
 
-std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p) {
-  LayerReport report = add_layers(domain, problem.layers, static_cast<double>(p.settings.max_elements));
-  drop_grids(problem, report, domain);
-  p.plane.background = mesh_rest(problem, domain, report.patches);
-  warn_of_layers(problem, report, p.warnings);
-  std::vector<LocalSize> fine = short_boundary_edges(domain, report.patches, *p.size.field);
+std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const MappedSpec& grids,
+                                  PlanarDomain& domain, MeshingSetup& p) {
+  const int first_new = static_cast<int>(domain.boundary.points.size());
+  LayerReport report = add_layers(domain, layers, static_cast<double>(p.settings.max_elements));
+  drop_grids(layers[0].where, grids, report, domain);
+  p.plane.background = mesh_rest(layers, domain, report.patches);
+  warn_of_layers(layers[0].where, report, p.warnings);
+  std::vector<LocalSize> fine = short_boundary_edges(domain, first_new, *p.size.field);
   p.layers = std::make_shared<LayerReport>(std::move(report));
   if (!fine.empty()) p.size.adapted_to.push_back("layers");
   return fine;
@@ -473,8 +472,14 @@ std::vector<char> layered_curves(const Mesh& fine, std::span<const LayerSpec> sp
 
 std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh) {
   std::vector<int> left(prepared.boundary.regions.size(), 0);
-  if (prepared.layers)
-    for (const int region : prepared.boundary.quad_region) ++left[region];
+  const MirroredSurface* mirrored = prepared.surface ? prepared.surface->mirrored.get() : nullptr;
+  const int images = mirrored != nullptr ? 1 << mirrored->planes.count() : 1;
+  const auto add = [&](int region) {
+    ++left[region];
+    for (int planes = 1; planes < images; ++planes)
+      if ((planes & mirrored->face_planes[region]) == 0) ++left[image_face(*mirrored, planes, region)];
+  };
+  if (prepared.layers) std::ranges::for_each(prepared.boundary.quad_region, add);
   std::vector<char> in_layers;
   for (const int region : mesh.quad_region)
     in_layers.push_back(region < static_cast<int>(left.size()) && left[region]-- > 0);

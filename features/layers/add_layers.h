@@ -17,6 +17,8 @@
 
 namespace delquad {
 
+struct CutSurface;
+
 /// Extent of finished layers.
 struct LayerCount {
   int columns = 0;         ///< edges of curves with quads on them
@@ -57,21 +59,27 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
 /// area of the fan's quads beside them. Solvers see that jump.
 std::vector<LocalSize> fan_spots(const PlanarDomain& domain, std::span<const LayerSpec> specs);
 
-/// Puts the layers of a problem into its domain, and makes the background mesh of the rest in the plane.
+/// Puts layers into a domain, and makes the background mesh of the rest in the plane.
 /// Warnings tell where layers had to be lower, and where the rest of the mesh is far coarser. Returns the
 /// edges that are much shorter than the size, beside which sizes must shrink.
-std::vector<LocalSize> put_layers(const MeshProblem& problem, PlanarDomain& domain, MeshingSetup& p);
+std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const MappedSpec& grids,
+                                  PlanarDomain& domain, MeshingSetup& p);
 
 /// Does the same for the patches of a surface. The nodes of curves that have layers, or on which layers end,
 /// stay.
-std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel& model,
-                                  SurfaceDomain& domain, MeshingSetup& p);
+std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const MappedSpec& grids,
+                                  const SurfaceModel& model, SurfaceDomain& domain, MeshingSetup& p);
+
+/// Returns layers of the part of a symmetric surface, on curves by their numbers there. Throws InputError if
+/// an image has not the same layer, and as layered_curves().
+std::vector<LayerSpec> layers_of_part(std::span<const LayerSpec> layers, const CutSurface& surface);
 
 /// Returns for each curve of a fine triangulation whether it has layers. Throws InputError for names that no
 /// curve has.
 std::vector<char> layered_curves(const Mesh& fine, std::span<const LayerSpec> specs);
 
-/// Returns for each quad whether it belongs to layers: these are the first quads of each region.
+/// Returns for each quad whether it belongs to layers, or to their mirror images: these are the first quads
+/// of each region.
 std::vector<char> quads_in_layers(const MeshingSetup& prepared, const Mesh& mesh);
 
 }  // namespace delquad

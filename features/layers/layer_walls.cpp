@@ -441,6 +441,14 @@ int LayerWalls::add(Wall& wall, double place) {
   return node;
 }
 
+int LayerWalls::add_image(Wall& wall, int master) {
+  const Vec3 x = domain_.boundary.periodic[wall.pairing].motion(domain_.boundary.points[master]);
+  const double place = walls_[wall.master].places.at(master);
+  const int node = domain_.in_space != nullptr ? add_node(domain_, x) : add_node(domain_, Vec2{x.x, x.y});
+  wall.places[node] = wall.runs_as_master ? place : shape_of(wall).track.n_edges() - place;
+  return node;
+}
+
 double LayerWalls::place(const LayerWall& wall, int node) const {
   const double place = walls_[wall.id].places.at(node);
   return wall.is_reversed ? wall.track.n_edges() - place : place;
@@ -464,16 +472,12 @@ const std::vector<int>& LayerWalls::make_side(int id, int end) {
   const LayerWall& shape = shape_of(wall);
   const PatchBoundary& patch = domain_.patches[patches_[wall.patch].patch];
   nodes.push_back(patch.point_node[end == 0 ? shape.points.front() : shape.points.back()]);
+  wall.places[nodes[0]] = end == 0 ? 0 : shape.track.n_edges();
   if (wall.master >= 0) {
-    const Motion& motion = domain_.boundary.periodic[wall.pairing].motion;
     const std::vector<int>& masters = make_side(wall.master, wall.runs_as_master ? end : 1 - end);
-    for (std::size_t i = 1; i < masters.size(); ++i) {
-      const Vec3 x = motion(domain_.boundary.points[masters[i]]);
-      nodes.push_back(add_node(domain_, Vec2{x.x, x.y}));
-    }
+    for (std::size_t i = 1; i < masters.size(); ++i) nodes.push_back(add_image(wall, masters[i]));
     return nodes;
   }
-  wall.places[nodes[0]] = end == 0 ? 0 : shape.track.n_edges();
   for (const double along : wall.along[end])
     nodes.push_back(add(wall, shape.track.place(end == 0 ? along : shape.track.length() - along)));
   return nodes;
@@ -483,12 +487,8 @@ void LayerWalls::make_between(int id) {
   Wall& wall = walls_[id];
   if (std::exchange(wall.has_nodes, true)) return;
   if (wall.master >= 0) {
-    const Motion& motion = domain_.boundary.periodic[wall.pairing].motion;
     make_between(wall.master);
-    for (const int v : walls_[wall.master].nodes) {
-      const Vec3 x = motion(domain_.boundary.points[v]);
-      wall.nodes.push_back(add_node(domain_, Vec2{x.x, x.y}));
-    }
+    for (const int v : walls_[wall.master].nodes) wall.nodes.push_back(add_image(wall, v));
     if (!wall.runs_as_master) std::ranges::reverse(wall.nodes);
     return;
   }

@@ -111,6 +111,7 @@ class LayerWalls {
   const std::vector<int>& make_side(int id, int end);
   void make_between(int id);
   int add(Wall& wall, double place);
+  int add_image(Wall& wall, int master);
 
   PlanarDomain& domain_;
   std::vector<PatchLayers>& patches_;

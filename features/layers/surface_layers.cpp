@@ -7,8 +7,13 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/segment.h"
+#include "delquad/error.h"
 #include "features/layers/add_layers.h"
+#include "features/symmetry/mirrored_surface.h"
+#include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/triangle_measures.h"
 #include "geometry/patches/narrow_places.h"
 #include "geometry/patches/surface_curves.h"
@@ -33,6 +38,7 @@ class SurfacePlaces final : public PatchPlaces {
                                                                        on_curve[k + 1]};
       ends_.insert({on_curve.front().node, on_curve.back().node});
     }
+    for (const PeriodicNodes& pair : domain.boundary.periodic) is_periodic_.insert({pair.curve, pair.master});
   }
 
   double stretch(int patch, Vec2 u, Vec2 along) const override {
@@ -74,7 +80,10 @@ class SurfacePlaces final : public PatchPlaces {
 
   bool is_cut(int curve) const override { return domain_.cut_face[curve] >= 0; }
   bool is_end(int node) const override { return ends_.contains(node); }
-  bool is_divided(int a, int b) const override { return domain_.chain_stays[chain_of(a, b)] != 0; }
+  bool is_divided(int a, int b) const override {
+    const int chain = chain_of(a, b);
+    return domain_.chain_stays[chain] != 0 && !is_periodic_.contains(domain_.chains[chain].curve);
+  }
 
   int chain_of(int a, int b) const { return edges_.at(std::minmax(a, b)).chain; }
   double s_between(int a, int b, double part) const {
@@ -142,6 +151,7 @@ class SurfacePlaces final : public PatchPlaces {
   mutable std::vector<int> hint_;              ///< of each patch
   std::map<std::pair<int, int>, Edge> edges_;  ///< between neighboring nodes
   std::set<int> ends_;                         ///< of curves
+  std::set<int> is_periodic_;                  ///< curves with nodes that are images or have them
 };
 
 /// Replaces the nodes of a wall on its curve.
@@ -172,10 +182,44 @@ void place_wall(const WallNodes& wall, const SurfacePlaces& places, SurfaceDomai
   domain.chain_stays[chain] = 1;
 }
 
+/// Throws InputError if images of marked entities are not marked. `images` returns the images of each.
+template <class Images>
+void check_marks_symmetric(const std::vector<char>& marked, const Images& images,
+                           const std::vector<Entity>& all, const char* kind, const LayerSpec& layer) {
+  for (std::size_t one = 0; one < marked.size(); ++one)
+    for (const int other : images(one))
+      if (marked[one] && !marked[other])
+        throw InputError(
+            fmt::format("{}: {} {} and {} are mirror images and have not the same layer: expected it on both",
+                        layer.where, kind, all[one].tag, all[other].tag));
+}
+
 }  // namespace
 
-std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel& model,
-                                  SurfaceDomain& domain, MeshingSetup& p) {
+std::vector<LayerSpec> layers_of_part(std::span<const LayerSpec> layers, const CutSurface& surface) {
+  const Mesh& whole = surface.whole.fine;
+  std::vector<LayerSpec> of_part(layers.begin(), layers.end());
+  for (LayerSpec& layer : of_part) {
+    const std::vector<char> on = layered_curves(whole, {&layer, 1});
+    std::vector<char> into(whole.regions.size(), 0);
+    for (const std::string& name : layer.into)
+      for (const int f : find_entities(whole.regions, "region", name, layer.where)) into[f] = 1;
+    for (const MirrorMatch& match : surface.matches) {
+      check_marks_symmetric(
+          on, [&](auto c) { return match.curves[c]; }, whole.curves, "curve", layer);
+      check_marks_symmetric(
+          into, [&](auto f) { return std::array{match.face[f]}; }, whole.regions, "face", layer);
+    }
+    layer.on.clear();
+    for (std::size_t c = 0; c < surface.half.whole_curve.size(); ++c)
+      if (const int of = surface.half.whole_curve[c]; of >= 0 && on[of])
+        layer.on.push_back(fmt::format("curve_{}", surface.half.model.fine.curves[c].tag));
+  }
+  return of_part;
+}
+
+std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const MappedSpec& grids,
+                                  const SurfaceModel& model, SurfaceDomain& domain, MeshingSetup& p) {
   PlanarDomain view;
   view.boundary = domain.boundary;
   view.mapped = domain.mapped;
@@ -183,10 +227,14 @@ std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel
     view.patches.push_back(patch.boundary);
     view.patch_region.push_back(patch.map.face);
   }
+  for (const auto& lips : model.lips)
+    for (std::size_t c = 0; c < domain.chains.size(); ++c)
+      if (std::ranges::find(lips, domain.chains[c].curve) != lips.end())
+        for (const CurveNode& node : domain.nodes.on_curve[c]) view.on_crack.push_back(node.node);
   const SurfacePlaces places(model, domain);
   view.in_space = &places;
-  const std::vector<LocalSize> fine = put_layers(problem, view, p);
-  const std::vector<char> is_layered = layered_curves(model.fine, problem.layers);
+  const std::vector<LocalSize> fine = put_layers(layers, grids, view, p);
+  const std::vector<char> is_layered = layered_curves(model.fine, layers);
   for (std::size_t c = 0; c < domain.chains.size(); ++c)
     if (is_layered[domain.chains[c].curve]) domain.chain_stays[c] = 1;
   domain.nodes.points = view.boundary.points;
@@ -198,6 +246,7 @@ std::vector<LocalSize> put_layers(const MeshProblem& problem, const SurfaceModel
   }
   domain.mapped = std::move(view.mapped);
   domain.boundary = boundary_mesh(model.fine, domain.chains, domain.nodes);
+  domain.boundary.periodic = std::move(view.boundary.periodic);
   domain.boundary.quads = std::move(view.boundary.quads);
   domain.boundary.quad_region = std::move(view.boundary.quad_region);
   return fine;

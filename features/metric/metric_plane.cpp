@@ -116,6 +116,8 @@ void check_metric(const MeshProblem& problem) {
                           ? ": a metric of surfaces has tensors in space, six formulas, a file, or a chord"
                           : ": a metric of planar domains has tensors of the plane: a chord and tensors in "
                             "space are for surfaces"));
+  for (const EmbeddedLine& line : problem.surface.embed)
+    if (line.is_crack) refuse("cracks do", line.where);
   if (model == nullptr) return;
   for (const ModelCurve& curve : model->curves)
     if (curve.is_crack) refuse("cracks do", curve.where);

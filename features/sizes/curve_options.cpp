@@ -18,11 +18,6 @@ const OptionTable<CurveOptions>& curve_table() {
                 .help = "more edges around small round holes, where that leaves fewer irregular vertices "
                         "beside them"},
                &CurveOptions::round_holes)
-          .add({.name = "join_below",
-                .help = "in sizes: shorter curves become one with those that they continue; 0: none",
-                .least = 0,
-                .most = 100},
-               &CurveOptions::join_below)
           .choice({.name = "thin",
                    .help = "thin regions and narrow faces: smaller sizes where they end, or whole rows of "
                            "long quads"},

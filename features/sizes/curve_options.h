@@ -14,9 +14,6 @@ struct CurveOptions {
   double agreement = 3;
   /// Small round holes get the edges of the square around them, see widen_round_holes().
   bool round_holes = false;
-  /// Curves shorter than this number of sizes, 0 to 100, join the curve that they continue, see
-  /// join_short_curves().
-  double join_below = 0.25;
   /// In the plane, regions thinner than the size get whole rows of quads; otherwise sizes shrink where these
   /// regions end. On surfaces, numbers of edges agree first around narrow faces that can be grids, and narrow
   /// places keep one row.

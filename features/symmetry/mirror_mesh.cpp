@@ -21,8 +21,13 @@ std::array<int, N> image_of(std::array<int, N> element, const std::vector<int>& 
 
 class MeshMirror {
  public:
-  MeshMirror(const MirroredSurface& mirrored, Mesh part)
-      : m_(mirrored), mesh_(std::move(part)), planes_(m_.node_planes), first_cut_(m_.first_cut) {
+  MeshMirror(const MirroredSurface& mirrored, Mesh part, std::size_t n_first)
+      : m_(mirrored),
+        mesh_(std::move(part)),
+        planes_(m_.node_planes),
+        first_cut_(m_.first_cut),
+        is_first_(mesh_.quads.size(), 0) {
+    std::fill_n(is_first_.begin(), n_first, 1);
     planes_.resize(mesh_.points.size(), 0);
     const auto put_in_plane = [&](const auto& elements, const std::vector<int>& regions) {
       for (std::size_t e = 0; e < elements.size(); ++e)
@@ -37,6 +42,7 @@ class MeshMirror {
     for (std::size_t v = 0; v < planes_.size(); ++v)
       mesh_.points[v] = m_.planes.put_on_all(planes_[v], mesh_.points[v]);
     for (int k = 0; k < m_.planes.count(); ++k) add_image(k);
+    if (std::ranges::count(is_first_, 1) > 0) sort_quads();
     name_points();
     return std::move(mesh_);
   }
@@ -78,14 +84,27 @@ class MeshMirror {
 
   template <std::size_t N>
   void add_elements(int plane, const std::vector<int>& image, std::vector<std::array<int, N>>& elements,
-                    std::vector<int>& regions) const {
+                    std::vector<int>& regions) {
     const std::size_t n = elements.size();
     for (std::size_t e = 0; e < n; ++e) {
       const int face = regions[e];
       if (m_.face_planes[face] >> plane & 1) continue;
+      if constexpr (N == 4) is_first_.push_back(char(is_first_[e]));
       elements.push_back(image_of(std::array(elements[e]), image, !m_.matches[plane].turned[face]));
       regions.push_back(m_.matches[plane].face[face]);
     }
+  }
+
+  /// Moves the first quads of the part, and their images, before all others.
+  void sort_quads() {
+    const Mesh all = mesh_;
+    mesh_.quads.clear(), mesh_.quad_region.clear();
+    for (const int first : {1, 0})
+      for (std::size_t q = 0; q < all.quads.size(); ++q) {
+        if (is_first_[q] != first) continue;
+        mesh_.quads.push_back(all.quads[q]);
+        mesh_.quad_region.push_back(all.quad_region[q]);
+      }
   }
 
   int image_curve(int plane, int curve, const std::array<int, 2>& line) {
@@ -129,6 +148,7 @@ class MeshMirror {
   std::vector<int> planes_;       // of each node
   std::vector<int> line_planes_;  // of each line
   int first_cut_;
+  std::vector<char> is_first_;                             // of each quad
   std::vector<std::vector<std::array<int, 2>>> lines_of_;  // of each curve of the whole
 };
 
@@ -159,8 +179,8 @@ void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFai
     }
 }
 
-Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part) {
-  return MeshMirror(mirrored, std::move(part)).run();
+Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part, std::size_t n_first) {
+  return MeshMirror(mirrored, std::move(part), n_first).run();
 }
 
 }  // namespace delquad

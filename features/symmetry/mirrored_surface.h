@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,7 +92,7 @@ void add_failures_of_images(const MirroredSurface& mirrored, std::vector<FaceFai
 
 /// Returns the mesh of the part, completed by its images. Its first points are the nodes on its curves. Nodes
 /// on planes are moved onto them to rounding and exist once, like elements in them. The mesh has the curves,
-/// faces and named points of the whole.
-Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part);
+/// faces and named points of the whole. The images of its first `n_first` quads follow these.
+Mesh mirror_mesh(const MirroredSurface& mirrored, Mesh part, std::size_t n_first);
 
 }  // namespace delquad

@@ -254,4 +254,12 @@ std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSp
   return HoleRows{rows, high, is_given ? hole.given : share_edges(hole.parts, edges)};
 }
 
+LayerSpec layers_of(const HoleRows& rows, const std::vector<int>& curves, const std::string& where) {
+  // Heights of layers are the heights of their quads, between nodes that turn.
+  const double turned = std::cos(std::numbers::pi / std::accumulate(rows.edges.begin(), rows.edges.end(), 0));
+  LayerSpec layer{.on = {}, .first = turned * rows.height, .growth = 1, .number = rows.rows, .where = where};
+  for (const int curve : curves) layer.on.push_back(fmt::format("curve_{}", curve));
+  return layer;
+}
+
 }  // namespace delquad

@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/box_tree.h"
@@ -69,5 +70,7 @@ std::vector<int> share_edges(const std::vector<double>& parts, int edges);
 /// Warnings tell of every change. Own method.
 std::optional<HoleRows> rows_around(const Hole& hole, int number, const WasherSpec& washer, double size,
                                     const HoleClearance& room, std::vector<Warning>& warnings);
+/// Returns rows as layers on curves with these numbers.
+LayerSpec layers_of(const HoleRows& rows, const std::vector<int>& curves, const std::string& where);
 
 }  // namespace delquad

@@ -114,20 +114,12 @@ MeshProblem with_planar_washers(MeshProblem problem, const SizeField& size, std:
     const double there = rim_size(holes[l], *of_hole[l], problem.size, size, warnings);
     const auto rows = rows_around(holes[l], static_cast<int>(l), *of_hole[l], there, room, warnings);
     if (!rows) continue;
-    // Heights of layers are the heights of their quads, between nodes that turn.
-    const double turned =
-        std::cos(std::numbers::pi / std::accumulate(rows->edges.begin(), rows->edges.end(), 0));
-    LayerSpec layer{.on = {},
-                    .first = turned * rows->height,
-                    .growth = 1,
-                    .number = rows->rows,
-                    .where = of_hole[l]->where};
-    const std::vector<int>& curves = sampled[l].curves;
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      layer.on.push_back(fmt::format("curve_{}", curves[i] + 1));
-      if (divided.emplace(curves[i], rows->edges[i]).second)
-        problem.divisions.push_back({.name = layer.on.back(), .edges = rows->edges[i], .where = layer.where});
-    }
+    std::vector<int> numbers;
+    for (const int c : sampled[l].curves) numbers.push_back(c + 1);
+    LayerSpec layer = layers_of(*rows, numbers, of_hole[l]->where);
+    for (std::size_t i = 0; i < layer.on.size(); ++i)
+      if (divided.emplace(sampled[l].curves[i], rows->edges[i]).second)
+        problem.divisions.push_back({.name = layer.on[i], .edges = rows->edges[i], .where = layer.where});
     problem.layers.push_back(std::move(layer));
   }
   return problem;

@@ -9,10 +9,7 @@
 #include "base/cancel.h"
 #include "base/text.h"
 #include "geometry/mesh/entity_names.h"
-#include "geometry/mesh/keep_elements.h"
-#include "geometry/mesh/nearest_on_regions.h"
 #include "geometry/mesh/triangle_measures.h"
-#include "geometry/surface/compound_projector.h"
 #include "geometry/surface/curve_chains.h"
 
 namespace delquad {
@@ -20,17 +17,13 @@ namespace {
 
 /// Mean cosine of the angle between a face and the plane of a hole in it: a countersink is none.
 constexpr double kLeastFlat = 0.8;
-/// Points of a ring's outline for each edge, at least, and steps on the way there.
-constexpr int kPointsAnEdge = 4, kSteps = 4;
 /// Ends of a bore have lengths within this ratio.
 constexpr double kMostTaper = 1.25;
 
 /// A hole in a face, with what is known of it on the surface.
 struct FaceHole : Hole {
   int face = -1;
-  std::vector<int> curve_of;  ///< of each side
-  std::vector<int> curves;    ///< of its parts
-  std::vector<Vec3> into;     ///< at its points: into the face
+  std::vector<int> curves;  ///< of its parts
 };
 
 using Edge = std::pair<int, int>;
@@ -41,25 +34,23 @@ FaceHole hole_of(const OutlinedChart& chart, std::size_t l, const std::map<Edge,
                  const std::set<int>& ends) {
   std::vector<int> loop = chart.loops[l];
   FaceHole hole;
-  hole.curve_of = chart.curve_of[l];
+  std::vector<int> curve_of = chart.curve_of[l];  // of each side
   hole.face = chart.face;
   const std::size_t n = loop.size();
   const auto first = std::ranges::find_if(loop, [&](int v) { return ends.contains(chart.fine_node[v]); });
-  std::ranges::rotate(hole.curve_of, hole.curve_of.begin() + (first - loop.begin()) % std::ssize(loop));
+  std::ranges::rotate(curve_of, curve_of.begin() + (first - loop.begin()) % std::ssize(loop));
   if (first != loop.end()) std::ranges::rotate(loop, first);
   Vec3 area;
   double flat = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 a = chart.points[loop[i]], side = chart.points[loop[(i + 1) % n]] - a;
-    if (i == 0 || hole.curve_of[i] != hole.curves.back()) {
-      hole.curves.push_back(hole.curve_of[i]);
+    if (i == 0 || curve_of[i] != hole.curves.back()) {
+      hole.curves.push_back(curve_of[i]);
       hole.parts.push_back(0);
     }
     hole.parts.back() += norm(side);
     hole.outline.push_back(a);
     area = area + cross(a - hole.outline[0], side);
-    const Vec3 sum = into.at({loop[i], loop[(i + 1) % n]}) + into.at({loop[(i + n - 1) % n], loop[i]});
-    hole.into.push_back((1 / norm(sum)) * sum);
   }
   for (std::size_t i = 0; i < n; ++i)
     flat +=
@@ -82,38 +73,6 @@ std::map<Edge, Vec3> inward_normals(const Chart& chart) {
   return into;
 }
 
-/// Places at a distance from the parts of a hole, along the surface, those between two parts in both.
-std::vector<std::vector<Vec3>> places_around(const FaceHole& hole, const HoleRows& rows,
-                                             const SurfaceModel& model, const NearestOnRegions& regions) {
-  const std::size_t n = hole.outline.size();
-  const double distance = rows.rows * rows.height;
-  const auto place = [&](std::size_t i, double t) {
-    const std::size_t j = (i + 1) % n;
-    Vec3 x = (1 - t) * hole.outline[i] + t * hole.outline[j], d = (1 - t) * hole.into[i] + t * hole.into[j];
-    if (model.projector) x = model.projector->to_curve(hole.curve_of[i], x);
-    for (int step = 0; step < kSteps; ++step) {
-      const Vec3 to = x + (distance / kSteps / norm(d)) * d;
-      const Vec3 next =
-          model.projector ? model.projector->to_face(hole.face, to) : regions.place(hole.face, to);
-      d = next - x;
-      x = next;
-    }
-    return x;
-  };
-  std::vector<std::vector<Vec3>> parts;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 begin = place(i, 0);
-    if (!parts.empty()) parts.back().push_back(begin);
-    if (i == 0 || hole.curve_of[i] != hole.curve_of[i - 1]) parts.push_back({begin});
-    const std::size_t p = parts.size() - 1;
-    const double side = norm(hole.outline[(i + 1) % n] - hole.outline[i]);
-    const int places = 1 + static_cast<int>(kPointsAnEdge * rows.edges[p] * side / hole.parts[p]);
-    for (int k = 1; k < places; ++k) parts[p].push_back(place(i, double(k) / places));
-  }
-  parts.back().push_back(parts[0][0]);
-  return parts;
-}
-
 std::vector<HoleClearance::Wall> walls_of(const std::vector<LooseLine>& loose) {
   std::vector<HoleClearance::Wall> walls;
   for (const LooseLine& line : loose)
@@ -121,9 +80,6 @@ std::vector<HoleClearance::Wall> walls_of(const std::vector<LooseLine>& loose) {
       walls.push_back({{line.points[i], line.points[std::min(i + 1, line.points.size() - 1)]}});
   return walls;
 }
-
-/// The name that a part of a ring's outline has until it is found again; no name of a file has a line's end.
-std::string mark(std::size_t ring, std::size_t part) { return fmt::format("\n{} {}", ring, part); }
 
 }  // namespace
 
@@ -223,7 +179,6 @@ void SurfaceWashers::plan(const SizeField& size) {
     for (const auto& curves : chart.curve_of) around.insert(curves.begin(), curves.end());
     for (const int c : around) ++n_faces[c];
   }
-  const NearestOnRegions regions(mesh);
   for (const OutlinedChart& chart : charts) {
     check_cancelled();
     const auto into = inward_normals(chart);
@@ -256,79 +211,15 @@ void SurfaceWashers::plan(const SizeField& size) {
         rims_.insert(hole.curves[i]);
       }
       spread(facing, there, washer.where);
-      const auto parts = places_around(hole, *rows, model_, regions);
-      const std::string at = show_point(hole.middle());
-      for (std::size_t i = 0; i < parts.size(); ++i)
-        model_.loose.push_back(
-            {parts[i], {mark(rings_.size(), i)}, washer.where + ": the ring around the hole at " + at});
-      rings_.push_back({hole.face, hole.curves, *rows, washer.where, at});
+      std::vector<int> numbers;
+      for (const int c : hole.curves) numbers.push_back(mesh.curves[c].tag);
+      LayerSpec& layer = layers_.emplace_back(layers_of(*rows, numbers, washer.where));
+      layer.into = {fmt::format("region_{}", mesh.regions[hole.face].tag)};
     }
   }
   for (const FacingSides& f : facing)
     if (are_rims(f.sides[0]) && are_rims(f.sides[1]))
       mapped_.rings.emplace_back(fmt::format("region_{}", mesh.regions[f.face].tag), -1);
-}
-
-void SurfaceWashers::cut() {
-  Mesh& mesh = model_.fine;
-  std::map<std::string, int> marked;
-  std::set<int> outer;
-  for (std::size_t c = 0; c < mesh.curves.size() && !rings_.empty(); ++c) {
-    auto& names = mesh.curves[c].names;
-    if (names.empty() || names[0][0] != '\n') continue;
-    if (!marked.emplace(names[0], static_cast<int>(c)).second) marked[names[0]] = -1;
-    outer.insert(static_cast<int>(c));
-    names.clear();
-  }
-  std::erase_if(model_.embedded, [&](const EmbeddedCurve& e) { return outer.contains(e.curve); });
-  // Rings are the charts that just these curves bound.
-  std::map<std::pair<int, std::set<int>>, std::vector<int>> triangles;
-  for (const OutlinedChart& chart : rings_.empty() ? std::vector<OutlinedChart>{} : outlined_charts(mesh)) {
-    std::set<int> around;
-    for (const auto& curves : chart.curve_of) around.insert(curves.begin(), curves.end());
-    triangles[{chart.face, around}] = chart.fine_triangle;
-  }
-  int tag = 0;
-  for (const Entity& face : mesh.regions) tag = std::max(tag, face.tag);
-  EntityGroups origin = singleton_groups(mesh.regions.size());
-  for (std::size_t r = 0; r < rings_.size(); ++r) {
-    const Ring& ring = rings_[r];
-    std::vector<int> curves;
-    for (std::size_t i = 0; i < ring.curves.size(); ++i) {
-      const auto found = marked.find(mark(r, i));
-      curves.push_back(found == marked.end() ? -1 : found->second);
-    }
-    std::set<int> around(ring.curves.begin(), ring.curves.end());
-    around.insert(curves.begin(), curves.end());
-    const auto found = triangles.find({ring.face, around});
-    if (found == triangles.end()) {
-      model_.warnings.push_back(
-          {"holes without rows", 1,
-           fmt::format("{}: the hole at {} gets no rows: its ring is not whole on one face [no-rows]",
-                       ring.where, ring.at)});
-      continue;
-    }
-    for (const int t : found->second) mesh.triangle_region[t] = static_cast<int>(mesh.regions.size());
-    mesh.regions.push_back({++tag, mesh.regions[ring.face].names});
-    origin.push_back({ring.face});
-    face_of_[tag] = mesh.regions[ring.face].tag;
-    mapped_.rings.emplace_back(fmt::format("region_{}", tag), ring.rows.rows);
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      outer.erase(curves[i]);
-      divide(curves[i], ring.rows.edges[i], ring.where);
-    }
-  }
-  if (!rings_.empty()) {
-    const std::vector<EmbeddedCurve> embedded = model_.embedded;
-    regroup(model_, mesh, origin, singleton_groups(mesh.curves.size()));
-    model_.embedded = embedded;
-  }
-  if (!outer.empty()) {
-    const Mesh former = mesh;
-    keep_lines(mesh, [&](std::size_t l) { return !outer.contains(former.line_curve[l]); });
-    tidy_model(model_, former);
-  }
-  divide_fillets();
 }
 
 bool SurfaceWashers::give_way(const FaceError& error) {
@@ -341,6 +232,10 @@ bool SurfaceWashers::give_way(const FaceError& error) {
   const auto gone = std::remove_if(divisions_.end() - n_added_, divisions_.end(),
                                    [&](const CurveDivision& d) { return around.contains(d.name); });
   const std::ptrdiff_t n_gone = divisions_.end() - gone;
+  const auto first = layers_.begin() + std::ssize(problem_.layers);
+  layers_.erase(std::remove_if(first, layers_.end(),
+                               [&](const LayerSpec& layer) { return around.contains(layer.on.front()); }),
+                layers_.end());
   divisions_.erase(gone, divisions_.end());
   n_added_ -= n_gone;
   if (n_gone > 0)

@@ -26,37 +26,27 @@ struct OutlinedChart : Chart {
 /// Returns the charts of all faces of a triangulation.
 std::vector<OutlinedChart> outlined_charts(const Mesh& mesh);
 
-/// Rings around holes in faces of a surface. Curves at equal distance from the holes, along the surface,
-/// divide rings from the faces around. Both sides have equal numbers of edges and the requested rows. The
-/// other end of a bore gets the edges of the first, and the face between becomes a grid if that pays. Curves
-/// across fillets get numbers of edges, and fillets that are rings get rows. Own method.
+/// Rows around holes in faces of a surface: layers with equal numbers of edges on both sides. The other end
+/// of a bore gets the edges of the first, and the face between becomes a grid if that pays. Curves across
+/// fillets get numbers of edges, and fillets that are rings get rows. Own method.
 class SurfaceWashers {
  public:
-  /// `divisions` and `mapped` belong to the model, and get the demands of holes and fillets. Divided curves
-  /// stay.
+  /// `divisions`, `mapped` and `layers` belong to the model, and get the demands of holes and fillets.
+  /// Divided curves stay.
   SurfaceWashers(const MeshProblem& problem, SurfaceModel& model, std::vector<CurveDivision>& divisions,
-                 MappedSpec& mapped)
-      : problem_(problem), model_(model), divisions_(divisions), mapped_(mapped) {}
+                 MappedSpec& mapped, std::vector<LayerSpec>& layers)
+      : problem_(problem), model_(model), divisions_(divisions), mapped_(mapped), layers_(layers) {}
 
-  /// Adds the rings to the lines that are to be imprinted. Warnings, of the model, tell of holes that get
+  /// Divides the outlines of holes and adds layers there. Warnings, of the model, tell of holes that get
   /// other rows than asked for, or none.
   void plan(const SizeField& size);
-  /// Parts the faces, and divides the fillets.
-  void cut();
-  /// Removes added divisions of curves of a face that cannot be meshed with them. Returns whether there were
-  /// any.
+  void divide_fillets();
+  /// Removes added divisions, and their layers, of curves of a face that cannot be meshed with them. Returns
+  /// whether there were any.
   bool give_way(const FaceError& error);
   bool can_give_way() const { return n_added_ > 0; }
-  /// Returns the number of the face that a ring was cut from; of other faces their own.
-  int face_of(int tag) const { return face_of_.contains(tag) ? face_of_.at(tag) : tag; }
 
  private:
-  struct Ring {
-    int face;
-    std::vector<int> curves;  ///< of the hole
-    HoleRows rows;
-    std::string where, at;
-  };
   /// Curves at both ends of a tube, or on opposite sides of a strip.
   struct FacingSides {
     int face;
@@ -68,16 +58,14 @@ class SurfaceWashers {
   bool are_rims(const std::vector<int>& side) const;
   /// Gives the edges of rims to the curves that face them along bores, and from there on.
   void spread(const std::vector<FacingSides>& facing, double size, const std::string& where);
-  void divide_fillets();
 
   const MeshProblem& problem_;
   SurfaceModel& model_;
   std::vector<CurveDivision>& divisions_;
   MappedSpec& mapped_;
-  std::map<int, int> edges_;  ///< by divided curve
-  std::set<int> rims_;        ///< divided curves around holes with rows, and at other ends of bores
-  std::vector<Ring> rings_;
-  std::map<int, int> face_of_;  ///< numbers of rings, and of the faces that they were cut from
+  std::vector<LayerSpec>& layers_;
+  std::map<int, int> edges_;    ///< by divided curve
+  std::set<int> rims_;          ///< divided curves around holes with rows, and at other ends of bores
   std::ptrdiff_t n_added_ = 0;  ///< divisions, the last ones
 };
 

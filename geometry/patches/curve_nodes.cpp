@@ -22,8 +22,10 @@ std::vector<CurveChain> curve_chains(const SurfaceModel& model) {
     const auto& [a, b] = fine.lines[i];
     if (points.empty()) points.push_back(a);
     if (points.back() != a) {
-      throw InputError(
-          fmt::format("curve {}: its lines do not form one chain", fine.curves[fine.line_curve[i]].tag));
+      if (model.lips.empty() || !(fine.points[points.back()] == fine.points[a]))
+        throw InputError(
+            fmt::format("curve {}: its lines do not form one chain", fine.curves[fine.line_curve[i]].tag));
+      points.push_back(a);  // a crack opens it
     }
     points.push_back(b);
   }
@@ -49,6 +51,10 @@ std::vector<CurveChain> curve_chains(const SurfaceModel& model) {
     }
     chains.push_back(std::move(chain));
   }
+  if (!model.lips.empty())
+    std::erase_if(chains, [&](const CurveChain& c) {
+      return c.points.size() == 2 && fine.points[c.points[0]] == fine.points[c.points[1]];
+    });
   return chains;
 }
 

@@ -10,7 +10,9 @@
 
 #include "base/disjoint_sets.h"
 #include "base/segment.h"
+#include "base/sort_unique.h"
 #include "delquad/error.h"
+#include "geometry/mesh/double_nodes.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/keep_elements.h"
 
@@ -112,30 +114,15 @@ class DomainBuilder {
   }
 
   void double_nodes(const std::vector<char>& cracks) {
-    Mesh& mesh = domain_.boundary;
-    std::vector<char> on_crack(mesh.points.size(), 0);
+    std::vector<char> on_crack(mesh().points.size(), 0), opens(n_sides(), 0);
     for (std::size_t l = 0; l < lines_.size(); ++l)
       if (is_crack(static_cast<int>(l), cracks))
         for (const int v : lines_[l]) on_crack[v] = 1;
-    std::vector<int> owner(mesh.points.size(), -1);  // the joined corners that keep the node
-    std::vector<int> node(n_sides(), -1);            // of joined corners, by root
-    for (int s = 0; s < n_sides(); ++s) {
-      const int v = start(s), corner = joined_.root(s);
-      if (!on_crack[v] || region_at(s) < 0) continue;
-      if (owner[v] < 0) {
-        owner[v] = corner;
-        domain_.on_crack.push_back(v);
-      }
-      if (node[corner] < 0) {
-        node[corner] = v;
-        if (owner[v] != corner) {
-          node[corner] = static_cast<int>(mesh.points.size());
-          mesh.points.push_back(Vec3(mesh.points[v]));
-          domain_.on_crack.push_back(node[corner]);
-        }
-      }
-      node_[s] = node[corner];
-    }
+    for (int s = 0; s < n_sides(); ++s) opens[s] = on_crack[start(s)] && region_at(s) >= 0;
+    delquad::double_nodes(joined_, opens, node_, domain_.boundary.points);
+    for (int s = 0; s < n_sides(); ++s)
+      if (opens[s]) domain_.on_crack.push_back(node_[s]);
+    sort_unique(domain_.on_crack);
   }
 
   /// Gives line l the nodes of its corners; cracks get lines on both lips.
@@ -150,18 +137,9 @@ class DomainBuilder {
     if (!is_crack(l, cracks) || region_at(side ^ 1) < 0 ||
         other == std::array{mesh.lines[l][1], mesh.lines[l][0]})
       return;
-    const int curve = mesh.line_curve[l];
     other_lip_.resize(lines_.size(), -1);
-    const auto known = lip_curves_.try_emplace(curve, static_cast<int>(mesh.curves.size()));
-    if (known.second) {
-      Entity lip = mesh.curves[curve];
-      lip.tag = 0;
-      for (const Entity& c : mesh.curves) lip.tag = std::max(lip.tag, c.tag + 1);
-      mesh.curves.push_back(std::move(lip));
-    }
     other_lip_[l] = side ^ 1;
-    mesh.lines.push_back(other);
-    mesh.line_curve.push_back(known.first->second);
+    add_lip_line(mesh, mesh.line_curve[l], other, lip_curves_);
   }
 
   void add_patch(const Arrangement::Face& face) {

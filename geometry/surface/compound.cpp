@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/disjoint_sets.h"
+#include "base/segment.h"
 #include "base/sort_unique.h"
 #include "delquad/error.h"
 #include "geometry/mesh/keep_elements.h"
@@ -275,6 +276,84 @@ Groups tangent_groups(const SurfaceModel& model, double angle) {
   return groups;
 }
 
+namespace {
+
+/// Joins the lines again, as rechain(), with the data of the curves. Returns the former curves of each curve.
+Groups join_again(SurfaceModel& model, const std::vector<char>& corner) {
+  std::vector<Entity> old = model.fine.curves;
+  Groups curves = rechain(model, corner);
+  Mesh former = model.fine;
+  former.curves = std::move(old);
+  regroup(model, former, singleton_groups(former.regions.size()), curves);
+  return curves;
+}
+
+/// Drops the corners of a chain within their tolerance of the line between the others. The farthest corner
+/// stays, and both parts follow. Pieces that are no lines divide the chain.
+void drop_corners(const Mesh& mesh, const std::vector<int>& chain, const CurveTolerance& tolerance,
+                  std::vector<char>& corner) {
+  const auto look = [&](std::size_t from, std::size_t to) {
+    std::array<std::pair<double, std::size_t>, 2> farthest{};  // of all points, of corners
+    for (std::size_t k = from + 1; k < to; ++k) {
+      const Vec3& x = mesh.points[chain[k]];
+      const double off =
+          distance_to_segment(x, mesh.points[chain[from]], mesh.points[chain[to]]) / tolerance(x);
+      farthest[0] = std::max(farthest[0], {off, k});
+      if (corner[chain[k]]) farthest[1] = std::max(farthest[1], {off, k});
+    }
+    return farthest;
+  };
+  std::vector<std::array<std::size_t, 2>> parts;
+  std::size_t begin = 0, last = 0;
+  for (std::size_t k = 1; k < chain.size(); ++k) {
+    if (!corner[chain[k]] && k + 1 < chain.size()) continue;
+    if (look(last, k)[0].first > 1) {
+      parts.push_back({begin, last});
+      begin = k;
+    }
+    last = k;
+  }
+  parts.push_back({begin, last});
+  while (!parts.empty()) {
+    const auto [from, to] = parts.back();
+    parts.pop_back();
+    const auto [most, at_corner] = look(from, to);
+    if (at_corner.second == 0) continue;
+    if (most.first > 1)
+      parts.insert(parts.end(), {{from, at_corner.second}, {at_corner.second, to}});
+    else
+      for (std::size_t k = from + 1; k < to; ++k) corner[chain[k]] = 0;
+  }
+}
+
+}  // namespace
+
+SurfaceModel simplify_curves(SurfaceModel model, const CurveTolerance& tolerance,
+                             const std::vector<char>& kept) {
+  const Mesh& mesh = model.fine;
+  std::vector<int> kinds = kinds_of_lines(mesh);
+  for (std::size_t l = 0; l < kinds.size(); ++l)
+    if (!kept.empty() && kept[mesh.line_curve[l]]) kinds[l] = -1 - mesh.line_curve[l];
+  std::vector<std::set<int>> kinds_at(mesh.points.size());
+  for (std::size_t l = 0; l < kinds.size(); ++l)
+    for (const int v : mesh.lines[l]) kinds_at[v].insert(kinds[l]);
+  std::vector<char> corner = marked_corners(model), stays(mesh.points.size(), 0);
+  for (const NamedPoint& named : mesh.named_points) stays[named.point] = 1;
+  for (std::size_t v = 0; v < stays.size(); ++v)
+    stays[v] = stays[v] || (corner[v] && (kinds_at[v].size() != 1 || *kinds_at[v].begin() < 0));
+  for (const EdgeChain& chain : chain_edges(mesh.lines, [&](int v) { return stays[v] != 0; }))
+    drop_corners(mesh, chain.points, tolerance, corner);
+  const std::vector<Entity> old = mesh.curves;
+  const Groups curves = join_again(model, corner);
+  for (const std::vector<int>& members : curves)
+    if (members.size() > 1)
+      model.warnings.push_back({"curves that became one with others", static_cast<double>(members.size()),
+                                fmt::format("curve {} and {} others became one: their ends lie near the line "
+                                            "between the ends that stay",
+                                            old[members[0]].tag, members.size() - 1)});
+  return model;
+}
+
 SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options,
                                 const std::vector<char>& kept) {
   const Mesh& mesh = model.fine;
@@ -304,14 +383,10 @@ SurfaceModel merge_short_curves(SurfaceModel model, double length, const Compoun
     corner[p] = 0;
     joins = true;
   }
+  if (!joins) return model;
   const std::vector<Entity> old = mesh.curves;
-  Groups curves = joins ? rechain(model, corner) : singleton_groups(old.size());
+  const Groups curves = join_again(model, corner);
   report_short_curves(old, lengths, length, curves, model.warnings);
-  if (joins) {
-    Mesh former = model.fine;
-    former.curves = old;
-    regroup(model, former, singleton_groups(former.regions.size()), std::move(curves));
-  }
   return model;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "geometry/surface/surface_model.h"
@@ -37,5 +38,16 @@ std::vector<std::vector<int>> tangent_groups(const SurfaceModel& model, double a
 /// (by curve; empty: none) stay. Warnings of the model name the joined curves.
 SurfaceModel merge_short_curves(SurfaceModel model, double length, const CompoundOptions& options = {},
                                 const std::vector<char>& kept = {});
+
+/// Returns the largest distance, a length, of a corner at this place from the line without it.
+using CurveTolerance = std::function<double(const Vec3&)>;
+
+/// Returns the model with chains of curves joined to one, if all their points lie within their tolerance of
+/// the line between its ends. Otherwise the farthest corner stays, and both parts of a chain are simplified
+/// [douglas1973]. The surface and its lines stay; only corners go. Chains end at named points, where other
+/// than two curves meet, where names change, and at curves that are `kept` (by curve; empty: none). Warnings
+/// of the model name the joined curves.
+SurfaceModel simplify_curves(SurfaceModel model, const CurveTolerance& tolerance,
+                             const std::vector<char>& kept = {});
 
 }  // namespace delquad

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -55,6 +56,7 @@ struct LooseLine {
   /// Otherwise it is from the model's file. Its ends and sharp turns become nodes, and it is left out with a
   /// warning if it is off the surface.
   bool is_requested = false;
+  bool is_crack = false;  ///< see EmbeddedCurve::is_crack
 };
 
 /// A curve inside of a face, with the face on both sides, which need not reach the face's boundary.
@@ -62,6 +64,7 @@ struct EmbeddedCurve {
   int curve;                 ///< index into SurfaceModel::fine.curves
   int face;                  ///< index into SurfaceModel::fine.regions
   bool is_dangling = false;  ///< a short one, in any direction, at a single point
+  bool is_crack = false;     ///< the mesh comes apart along it
 };
 
 /// A model made of faces that share curves, as a fine conforming triangulation.
@@ -77,8 +80,9 @@ struct SurfaceModel {
   std::vector<int> corners;
   /// Null: the triangulation itself is the surface.
   std::shared_ptr<const SurfaceProjector> projector;
-  std::vector<LooseLine> loose;         ///< lines that imprint() will add
-  std::vector<EmbeddedCurve> embedded;  ///< by curve
+  std::vector<LooseLine> loose;          ///< lines that imprint() will add
+  std::vector<EmbeddedCurve> embedded;   ///< by curve
+  std::vector<std::array<int, 2>> lips;  ///< both curves of each crack that is open, see open_cracks()
   std::vector<LeftOutFace> left_out;
   std::shared_ptr<const Mesh> before;  ///< `fine` before ignore_small(); null if it did not run
   std::vector<Warning> warnings;       ///< repairs and suspicious parts

@@ -284,8 +284,9 @@ struct EmbeddedLine {
   /// surface, in the unit of the mesh. An edge between two points follows the surface in the plane of both
   /// points and the mean of its normals there.
   std::vector<Vec3> points;
-  std::string name;   ///< physical group; may be empty, and several lines may share it
-  std::string where;  ///< as ModelCurve::where
+  std::string name;       ///< physical group; may be empty, and several lines may share it
+  std::string where;      ///< as ModelCurve::where
+  bool is_crack = false;  ///< as ModelCurve::is_crack
 };
 
 /// Selects faces or curves of a surface. All given rules must match.
@@ -315,8 +316,8 @@ struct SurfaceSpec {
   bool idealize = false;               ///< ignore_below defaults to min_length of the criteria
   std::vector<std::string> keep = {};  ///< names of parts that must stay
   double fill_holes = 0;               ///< close holes and tubes up to this diameter; 0: none
-  /// Planar polylines lose points within this many sizes of the remaining line; 0: all points stay. Absent:
-  /// 0.1 for measured points, 0 for others.
+  /// Polylines, and chains of curves of a surface, lose corners within this many sizes of the remaining line;
+  /// 0: all stay. Absent: 0.1 for measured points, 0 for others; see join_curves() for surfaces.
   std::optional<double> simplify;
   std::optional<double> feature_angle;   ///< degrees in (0, 180]; absent: 40
   std::optional<double> weld_tolerance;  ///< part of the diagonal in [0, 0.1]; absent: 1e-9

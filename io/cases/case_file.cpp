@@ -271,7 +271,7 @@ std::filesystem::path model_path(const MeshProblem& problem) {
 void read_case_keys(const TomlTable& table, Case& target) {
   read_model_keys(table, target);
   if (const auto surface = table.optional_table("surface"))
-    surface->refuse_removed({{"merge_curves", "curves.join_below joins short curves"}});
+    surface->refuse_removed({{"merge_curves", "surface.simplify joins short curves"}});
   std::vector<EmbeddedLine> embed = std::move(target.surface.embed);
   for_each_field(static_cast<MeshProblem&>(target), [&](const FieldInfo& info, auto& member) {
     // At the top of an experiment [[metric]] is a measure.

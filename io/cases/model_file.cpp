@@ -193,8 +193,8 @@ std::vector<EmbeddedLine> read_embedded_lines(const TomlTable& table) {
       if (key.name != "polyline" && one.has(key.name))
         refuse("{}: '{}' on a surface: expected one of polyline, point", one.where(key.name), key.name);
     require_one(one, {"polyline", "point"});
-    lines.push_back(
-        {shape.point ? std::vector{*shape.point} : shape.shape.polyline, shape.name, one.where()});
+    lines.push_back({shape.point ? std::vector{*shape.point} : shape.shape.polyline, shape.name, one.where(),
+                     shape.is_crack});
   }
   return lines;
 }

@@ -78,7 +78,8 @@ inline constexpr auto kFields<MirrorPlane> = std::tuple(
 template <>
 inline constexpr auto kFields<EmbeddedLine> = std::tuple(inner("points", &EmbeddedLine::points),
                                                          inner("name", &EmbeddedLine::name),
-                                                         place(&EmbeddedLine::where));
+                                                         place(&EmbeddedLine::where),
+                                                         inner("crack", &EmbeddedLine::is_crack));
 template <>
 inline constexpr auto kFields<PartRule> = std::tuple(
     field("number", &PartRule::numbers, "numbers that 'delquad info' lists", {.least = 1}),
@@ -110,7 +111,7 @@ inline constexpr auto kFields<SurfaceSpec> = std::tuple(
           {.option = "--keep"}),
     field("fill_holes", &SurfaceSpec::fill_holes, "diameter up to which holes are closed",
           {.above = 0, .option = "--fill-holes"}),
-    field("simplify", &SurfaceSpec::simplify, "sizes within which polylines lose points",
+    field("simplify", &SurfaceSpec::simplify, "sizes within which polylines and chains of curves lose points",
           {.least = 0, .option = "--simplify"}),
     field("feature_angle", &SurfaceSpec::feature_angle, "degrees by which triangles turn at a curve",
           {.above = 0, .most = 180, .option = "--feature-angle"}),

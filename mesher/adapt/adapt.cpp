@@ -40,6 +40,7 @@ bool needs_size(const MeshProblem& problem) {
   const auto* model = std::get_if<PlanarModel>(&problem.model);
   return !problem.layers.empty() || !problem.periodic.empty() || !problem.washers.empty() ||
          problem.symmetry.automatic || !problem.symmetry.planes.empty() || !problem.criteria.empty() ||
+         std::ranges::any_of(problem.surface.embed, &EmbeddedLine::is_crack) ||
          (model != nullptr && std::ranges::any_of(model->curves, &ModelCurve::is_crack));
 }
 

@@ -352,8 +352,9 @@ void define_problem(py::module_& m) {
       .def("set_function", &Problem::set_function)
       .def("set_nodal", &Problem::set_nodal)
       .def("embed",
-           [](Problem& p, const py::object& points, const std::string& name) {
-             p.problem.surface.embed.push_back({read_points(points, "embed: points"), name, "embed"});
+           [](Problem& p, const py::object& points, const std::string& name, bool is_crack) {
+             p.problem.surface.embed.push_back(
+                 {read_points(points, "embed: points"), name, "embed", is_crack});
            })
       .def("set",
            [](Problem& p, const KeyLines& lines) {

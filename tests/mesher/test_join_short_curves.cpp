@@ -47,12 +47,12 @@ TEST(JoinShortCurves, NoNodeIsNeededWhereTwoGoOnAsOne) {
   const MeshResult joined = mesh(problem, "DBCO");
   EXPECT_EQ(joined.metrics.values.at("n_irregular"), 0);
   EXPECT_EQ(joined.mesh.quads.size(), 200u);
-  EXPECT_EQ(count_told(joined.warnings, "curves.join_below = 0"), 1);
+  EXPECT_EQ(count_told(joined.warnings, "--simplify 0"), 1);
   for (const Vec3& p : joined.mesh.points)
     if (p.x == 0) {
       EXPECT_NEAR(std::remainder(p.y, kSize), 0, 1e-3);
     }
-  problem.options.set("curves.join_below", 0.0);
+  problem.surface.simplify = 0;
   EXPECT_EQ(nodes_at_ends(problem), 2);
 }
 
@@ -103,6 +103,33 @@ TEST(JoinShortCurves, TurnsStay) {
     if (p.y > 0.5) p.x += slope * (p.y - 0.5) * (1 - std::abs(p.x));
   MeshProblem problem = problem_of(bent);
   EXPECT_EQ(nodes_at(mesh(problem, "DBCO"), {0, 0.5, 0}), 1);
+}
+
+/// Eight curves of 0.125 turn by 35 degrees and more at corners that lie 0.02 beside a line.
+TEST(JoinShortCurves, ChainsLoseCornersNearTheLine) {
+  Mesh model = two_squares();
+  for (int j = 0; j <= 8; ++j) {
+    Vec3& p = model.points[17 * j + 8];
+    p = {j % 2 == 1 ? 0.02 : j == 0 || j == 8 ? 0 : -0.02, j / 8.0, 0};
+    if (j < 8) model.line_curve[j] = j;
+  }
+  model.curves.clear();
+  for (int j = 0; j < 8; ++j) model.curves.push_back({j + 1, {}});
+  const auto nodes_at_corners = [&](std::optional<double> tolerance, const Mesh& mesh_of) {
+    MeshProblem problem = problem_of(mesh_of);
+    problem.surface.simplify = tolerance;
+    const MeshResult result = mesh(problem, "DBCO");
+    EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+    std::ptrdiff_t nodes = 0;
+    for (int j = 1; j < 8; ++j) nodes += nodes_at(result, model.points[17 * j + 8]);
+    EXPECT_EQ(count_told(result.warnings, "others became one") > 0, nodes < 7);
+    return nodes;
+  };
+  EXPECT_EQ(nodes_at_corners({}, model), 7);
+  EXPECT_EQ(nodes_at_corners(0.1, model), 7);
+  EXPECT_LE(nodes_at_corners(0.3, model), 1);
+  model.curves[3].names = {"weld"};
+  EXPECT_GE(nodes_at_corners(0.3, model), 2) << "ends of a name stay";
 }
 
 TEST(JoinShortCurves, ImagesShareTheirFateWhereLengthsAreRound) {

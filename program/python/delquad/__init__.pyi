@@ -195,7 +195,7 @@ def mesh(
     pipeline: str | None = None,
     quality: Literal["fast", "good", "best", "regular"] | None = None,
     options: Mapping[str, bool | int | float | str] | None = None,
-    embed: Iterable[npt.ArrayLike | tuple[npt.ArrayLike, str]] = (),
+    embed: Iterable[npt.ArrayLike | tuple[npt.ArrayLike, str] | tuple[npt.ArrayLike, str, bool]] = (),
     name: str | None = None,
     max_elements: int | None = None,
     keep_going: bool = False,

@@ -136,8 +136,9 @@ def judge(mesh, criteria, size=None):
 
 def _embed(problem, embed):
     for entry in embed:
-        points, name = entry if isinstance(entry, tuple) and isinstance(entry[-1], str) else (entry, "")
-        problem.embed(points if len(points) == 0 or hasattr(points[0], "__len__") else [points], name)
+        is_named = isinstance(entry, tuple) and any(isinstance(part, str) for part in entry)
+        points, name, *crack = entry if is_named else (entry, "")
+        problem.embed(points if len(points) == 0 or hasattr(points[0], "__len__") else [points], name, bool(crack))
 
 
 def _bar(stage, part):
@@ -166,7 +167,7 @@ _TAIL = """
         word is another name of pipeline.
     options: options of the stages, such as {"insertion.h_max": 1.5}; see docs/keys.md.
     embed: polylines of shape (n, 3) and single points (3,) on a surface, which become edges and nodes of the mesh;
-        each alone or with a name, (points, "name"). In the plane see planar().
+        each alone or with a name, (points, "name"), or a crack, (points, "name", True). In the plane see planar().
     name: name of the model in messages.
     max_elements: refuses sizes that need more. keep_going: leaves out faces that cannot be meshed.
     allow_unsound: returns unsound meshes, too.

@@ -102,13 +102,44 @@ TEST(LayersOnFaces, FollowTriangulations) {
   expect_heights(result.mesh, {1}, 1, 0.005, 0.02);
 }
 
+TEST(LayersOnFaces, AreMirrored) {
+  const std::vector<std::string> holes = {"curve_7", "curve_8", "curve_9", "curve_10"};
+  MeshProblem plate = bracket({layer_into(holes, {"base"}, 0.05, 3)});
+  plate.symmetry.automatic = true;
+  const MeshResult result = mesh(plate, kWord);
+  expect_sound(result);
+  expect_heights(result.mesh, {7, 8, 9, 10}, 1, 0.05, 1e-4);
+  EXPECT_GT(result.metrics.values.at("edge_min"), 0.03) << "layers do not count, on both sides";
+  plate.layers[0].on = {"curve_7"};
+  expect_refused(plate, "DB", {"curve 7", "mirror images", "expected it on both"});
+}
+
+TEST(LayersOnFaces, EndAtPeriodicCurves) {
+  Mesh wave = testing_support::grid_surface({24, 24}, [](double u, double v) {
+                return Vec3{u, v, 0.1 * std::cos(2 * std::numbers::pi * u) * (1 + v)};
+              }).fine;
+  wave.curves = {{1, {"west"}}, {2, {"east"}}, {3, {"south"}}, {4, {"north"}}};
+  for (std::size_t l = 0; l < wave.lines.size(); ++l) {
+    const Vec3 x = 0.5 * (wave.points[wave.lines[l][0]] + wave.points[wave.lines[l][1]]);
+    wave.line_curve[l] = x.x < 1e-9 ? 0 : x.x > 1 - 1e-9 ? 1 : x.y < 1e-9 ? 2 : 3;
+  }
+  MeshProblem problem = problem_of(TriangleModel{std::move(wave)}, 0.05);
+  problem.layers = {layer_on({"south"}, 0.005, 5)};
+  problem.periodic = {{"west", "east", {.shift = {1, 0, 0}}, "periodic"}};
+  const MeshResult result = mesh(problem, kWord);
+  expect_sound(result);
+  EXPECT_EQ(count_of(result, "quads"), 5 * count_of(result, "columns"));
+  ASSERT_EQ(result.mesh.periodic.size(), 1u);
+  const PeriodicNodes& pair = result.mesh.periodic[0];
+  EXPECT_GT(pair.nodes.size(), 5u + 1 / 0.05 / 2);
+  for (const auto& [node, master] : pair.nodes)
+    EXPECT_EQ(result.mesh.points[node], pair.motion(result.mesh.points[master]));
+}
+
 TEST(LayersOnFaces, RefuseWhatCannotBe) {
   expect_refused(bracket({layer_on({"curve_7"}, 200, 3)}), "DB", {"thick", "wide", "[no-place-for-layers]"});
   expect_refused(bracket({layer_on({"curve_999"}, 0.1, 3)}), "DB", {"no curve is called 'curve_999'"});
   expect_refused(bracket({layer_on({"holes"}, 0.1, 3)}), "DB", {"'holes' names faces", "[unknown-name]"});
-  MeshProblem symmetric = bracket({layer_on({"curve_7"}, 0.1, 3)});
-  symmetric.symmetry.automatic = true;
-  expect_refused(symmetric, "DB", {"layer", "symmetry"});
   MeshProblem divided = bracket({layer_into({"curve_1"}, {"base"}, 0.1, 3)});
   divided.divisions = {{.name = "curve_2", .edges = 6}};
   expect_refused(divided, "DB", {"'divide'", "[layer-at-a-divided-curve]"});

@@ -152,6 +152,8 @@ TEST(Washers, AreRingsOnCad) {
   const MeshResult r = mesh(problem_of(ExampleModel{"sheet"}, 4, {{9, 11, 1, 12, 3}}), "DBCO");
   for (const double y : {18.0, 42.0}) EXPECT_EQ(rows_around(r.mesh, {25, y, 0}, 5, 8, 1, 12), 1);
   EXPECT_EQ(count_told(r.warnings, "gets no rows: something is 0.2 away"), 2);
+  EXPECT_EQ(r.mesh.regions.size(), 3u) << "rows are no faces";
+  EXPECT_EQ(r.log.summaries.number("layers", "quads"), 24);
   EXPECT_TRUE(r.soundness.sound());
 }
 
