@@ -251,24 +251,15 @@ std::string list_curves(const Mesh& mesh, const std::vector<char>& listed) {
                      show_point(mesh.points[mesh.lines[line][0]]));
 }
 
-/// Returns 1 for each face that is flat and shares no edge with another: a plate, which is no open solid.
-std::vector<char> find_plates(const Mesh& mesh, const std::vector<HalfEdge>& sides) {
-  constexpr double kFlat = 1 - 1e-6;
-  std::vector<Vec3> sums(mesh.regions.size());
-  std::vector<double> areas(mesh.regions.size(), 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 area = area_vector(mesh, t);
-    sums[mesh.triangle_region[t]] = sums[mesh.triangle_region[t]] + area;
-    areas[mesh.triangle_region[t]] += norm(area);
-  }
-  std::vector<char> is_plate;
-  for (std::size_t r = 0; r < sums.size(); ++r) is_plate.push_back(norm(sums[r]) >= kFlat * areas[r]);
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    const int a = mesh.triangle_region[sides[i - 1].element], b = mesh.triangle_region[sides[i].element];
-    if (a != b && sides[i - 1].lo == sides[i].lo && sides[i - 1].hi == sides[i].hi)
-      is_plate[a] = is_plate[b] = 0;
-  }
-  return is_plate;
+/// Returns whether all triangles lie in parallel planes, so that they can enclose nothing.
+bool is_flat(const Mesh& mesh) {
+  constexpr double kFlat = 1e-6;  // part of the largest area
+  Vec3 largest;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (const Vec3 area = area_vector(mesh, t); norm(area) > norm(largest)) largest = area;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (norm(cross(area_vector(mesh, t), largest)) > kFlat * dot(largest, largest)) return false;
+  return true;
 }
 
 }  // namespace
@@ -277,13 +268,12 @@ void report_edges(SurfaceModel& model) {
   const Mesh& mesh = model.fine;
   std::vector<char> free(mesh.curves.size(), 0), crowded(mesh.curves.size(), 0);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
-  const std::vector<char> is_plate = find_plates(mesh, sides);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
-    const auto at = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]);
-    if (at.size() == 1 && !is_plate[mesh.triangle_region[at.front().element]]) free[mesh.line_curve[l]] = 1;
-    if (at.size() > 2) crowded[mesh.line_curve[l]] = 1;
+    const std::size_t n = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]).size();
+    if (n == 1) free[mesh.line_curve[l]] = 1;
+    if (n > 2) crowded[mesh.line_curve[l]] = 1;
   }
-  if (std::ranges::count(free, 1) > 0)
+  if (std::ranges::count(free, 1) > 0 && !is_flat(mesh))
     model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free) +
                              "; a larger tolerance of welding closes gaps of a solid, a shell needs nothing");
   if (std::ranges::count(crowded, 1) > 0)
