@@ -68,6 +68,9 @@ std::string extensions_of(const Can& can) {
   return fmt::format("{} or {}", fmt::join(all, ", "), last);
 }
 
+/// Kinds of pictures that no writer has.
+constexpr const char* kPictures[] = {".png", ".jpg", ".jpeg", ".gif", ".pdf", ".webp"};
+
 [[noreturn]] void unknown(const std::filesystem::path& path, const std::string& known) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
@@ -76,8 +79,11 @@ std::string extensions_of(const Can& can) {
   for (const MeshFormat& format : mesh_formats()) kinds.push_back(format.extensions[0]);
   const std::string kind = path.extension().string();
   const bool is_slip = std::ranges::find(kinds, kind) == kinds.end();
+  const bool is_picture = std::ranges::count(kPictures, kind) > 0;
   refuse("{}: unknown kind of mesh file '{}': expected {}{} [unknown-format]", path.string(), kind, known,
-         is_slip ? suggestion(kind, kinds) : "");
+         is_picture ? "; a picture is written as .svg, and a page by 'delquad view'"
+         : is_slip  ? suggestion(kind, kinds)
+                    : "");
 }
 
 }  // namespace

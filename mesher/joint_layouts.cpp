@@ -173,9 +173,12 @@ void run_joint_layouts(const MeshingSetup& prepared, PipelineState& state) {
   const SurfaceDomain& domain = prepared.surface->domain;
   const std::vector<char> may_change = patches_that_may_change(prepared, state);
   LayoutNetwork layouts;
-  for (std::size_t c = 0; c < domain.chains.size(); ++c)
-    layouts.curves.push_back({edges_of(state.nodes.on_curve[c]),
-                              domain.chains[c].closed() ? kFewestLoopEdges : 1, !domain.chain_stays[c]});
+  for (std::size_t c = 0; c < domain.chains.size(); ++c) {
+    const int edges = edges_of(state.nodes.on_curve[c]);  // New ones are at most twice as long.
+    layouts.curves.push_back({edges,
+                              std::max(domain.chains[c].closed() ? kFewestLoopEdges : 1, (edges + 1) / 2),
+                              !domain.chain_stays[c]});
+  }
   for (std::size_t p = 0; p < domain.patches.size(); ++p) {
     LayoutPatch& patch = layouts.patches.emplace_back();
     for (const auto& loop : domain.patches[p].outline)

@@ -289,6 +289,40 @@ void name_failing(const CriteriaReport& report, Mesh& mesh) {
   }
 }
 
+/// Meshes again with each option that may cure failing elements, and prints how many fail then. The written
+/// mesh stays.
+void try_cures(const MeshArguments& arguments, const Case& c, const Pipeline& pipeline,
+               const CriteriaReport& report) {
+  if (!arguments.try_cures || report.failing == 0) return;
+  struct Trial {
+    std::string option;
+    Case c;
+    std::string pipeline;
+  };
+  std::vector<Trial> trials;
+  for (const Cure& cure : cures_by_key(report))
+    if (cure.key == "surface.ignore_below") {
+      Trial& trial = trials.emplace_back(fmt::format("--ignore-below {:.3g}", cure.value), c, pipeline.text);
+      trial.c.surface.ignore_below = cure.value;
+    }
+  MeshArguments best = arguments;
+  best.quality = "best";
+  if (const std::string text = quality_named(best.quality).pipeline;
+      !arguments.pipeline && !arguments.improve && pipeline.text != text) {
+    Trial& trial = trials.emplace_back("--quality best", read_case(best), text);
+    trial.c.allow_unsound = true;
+    set_problem(best, trial.c);
+  }
+  for (const Trial& trial : trials) try {
+      const MeshResult other = mesh(prepare(trial.c), trial.pipeline);
+      if (!other.soundness.accepted()) throw InputError(other.soundness.complaint());
+      fmt::print("    tried {}: {} of {} elements fail, {} before\n", trial.option, other.criteria->failing,
+                 other.criteria->elements, report.failing);
+    } catch (const InputError& error) {
+      fmt::print("    tried {}: not possible: {}\n", trial.option, error.what());
+    }
+}
+
 void check_fields_file(const std::filesystem::path& file) {
   if (kind_of_file(file) != ".vtu") refuse("--fields: {}: expected a .vtu file", file.string());
   check_output(file);
@@ -385,6 +419,7 @@ int mesh_command(MeshArguments arguments) {
   progress.finish();
   if (given) print_before(arguments.model.string(), *given, result.prepared);
   print_after(arguments, result, command.seconds());
+  if (result.criteria) try_cures(arguments, c, pipeline, *result.criteria);
   if (arguments.view)
     view(page_of(arguments.output), result.mesh, arguments.output.filename().string(),
          {.warnings = lines_of(result.warnings), .failing = failing_quads(result)});

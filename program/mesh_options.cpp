@@ -192,6 +192,9 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_flag("--strict", arguments.strict, "exit with 5 if elements fail the criteria, and write no mesh");
   mesh.add_flag("--failing-sets", arguments.failing_sets,
                 "put elements beyond the criteria in sets 'failing', 'failing_min_length', ... of the mesh");
+  mesh.add_flag(
+      "--try-cures", arguments.try_cures,
+      "if elements fail the criteria, mesh again with each proposed option, and tell how many are left");
 }
 
 void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
@@ -203,9 +206,10 @@ void set_criteria(const MeshArguments& arguments, Criteria& criteria) {
   if (arguments.failing_sets && arguments.improve && keeps_file(arguments.model, arguments.output))
     refuse("--failing-sets: {} keeps the sets of {} and gets no new ones: leave it out",
            arguments.output.string(), arguments.model.string());
-  if ((arguments.failing_sets || arguments.strict) && criteria.empty())
-    refuse("{}: there are no criteria: expected --criteria, too",
-           arguments.strict ? "--strict" : "--failing-sets");
+  if ((arguments.failing_sets || arguments.strict || arguments.try_cures) && criteria.empty())
+    refuse("{}: there are no criteria: expected --criteria, too", arguments.strict      ? "--strict"
+                                                                  : arguments.try_cures ? "--try-cures"
+                                                                                        : "--failing-sets");
 }
 
 }  // namespace

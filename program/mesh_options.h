@@ -43,7 +43,7 @@ struct MeshArguments : KeyArguments {
   bool view = false;  ///< show the mesh afterwards
   bool allow_triangles = false;
   bool allow_unsound = false;
-  bool strict = false, failing_sets = false;
+  bool strict = false, failing_sets = false, try_cures = false;
   MshOptions msh{false, MshCurves::kNamed};
 };
 /// Throws InputError for `--triangles` with a deck whose elements are kept.

@@ -170,10 +170,24 @@ void print_criteria(const CriteriaReport& report, const Mesh& mesh) {
   for (const auto& [program, step] : report.estimated_step) fmt::print(" {} {:.4g}", program, step);
   fmt::print("\n");
   for (const std::string& why : report.why) fmt::print("    {}\n", why);
-  for (const Cure& cure : report.cures)
-    fmt::print("    {} {:.3g} may cure {} of {} ({})\n",
+  for (const Cure& cure : cures_by_key(report))
+    fmt::print("    {} {:.3g} may cure {} of {} ({}), by estimate\n",
                cure.key == "size" ? "a --size there of" : "--ignore-below", cure.value, cure.count,
                report.failing, cure.cause);
+}
+
+std::vector<Cure> cures_by_key(const CriteriaReport& report) {
+  std::vector<Cure> cures;
+  for (const Cure& cure : report.cures) {
+    const auto at = std::ranges::find(cures, cure.key, &Cure::key);
+    if (at == cures.end()) {
+      cures.push_back(cure);
+      continue;
+    }
+    at->cause += ", " + cure.cause, at->count += cure.count;
+    at->value = cure.key == "size" ? std::min(at->value, cure.value) : std::max(at->value, cure.value);
+  }
+  return cures;
 }
 
 void print_seconds(const StepTimes& times) {

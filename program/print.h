@@ -32,8 +32,11 @@ std::string show_counts(const Mesh& mesh);
 /// Prints the names of the parts of a mesh in one line, and nothing if no part has a name.
 void print_names(const Mesh& mesh);
 
-/// Prints the results of criteria and the causes of failures.
+/// Prints the results of criteria, the causes of failures, and their cures.
 void print_criteria(const CriteriaReport& report, const Mesh& mesh);
+/// Returns one cure for each key: it has all causes and elements of the key, and the value that is enough for
+/// all.
+std::vector<Cure> cures_by_key(const CriteriaReport& report);
 
 /// Prints the time of each step in seconds, added up over threads.
 void print_seconds(const StepTimes& times);

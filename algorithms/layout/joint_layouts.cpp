@@ -36,12 +36,12 @@ constexpr double kForbiddenPrice = 1e6;
 /// Factor of the price of an open sum: groups lose less than predicted.
 constexpr double kOpenSumFactor = 2;
 /// Limits of agree_counts(): steps, and patches in one of its searches.
-constexpr long long kMostSteps = 50'000;
+constexpr long long kMostSteps = 200'000;
 constexpr int kMostLooks = 100;
 /// Rounds of annealing in a candidate.
 constexpr int kCleanupRounds = 10;
 /// Limit of choices of numbers.
-constexpr int kMostRounds = 8;
+constexpr int kMostRounds = 16;
 /// Least eta of quads, unless they were worse before.
 constexpr double kLeastEta = 0.3;
 
@@ -285,10 +285,10 @@ class JointLayout {
     now = std::move(best);
   }
 
-  static QuadPatch by_cavities(const QuadPatch& mesh, const LayoutPatch& patch) {
-    return make_regular(mesh, *patch.size, {.rounds = 1});
+  QuadPatch by_cavities(const QuadPatch& mesh, const LayoutPatch& patch) const {
+    return make_regular(mesh, *patch.size, {.tolerance = price_, .rounds = 1});
   }
-  static QuadPatch by_front(const LayoutPatch& patch, const PatchBoundary& boundary) {
+  QuadPatch by_front(const LayoutPatch& patch, const PatchBoundary& boundary) const {
     const TriPatch triangles = mesh_delquad(boundary, *make_linf_delquad(), *patch.cross, *patch.size);
     const QuadPatch merged = recombine(triangles, *make_primal_dual_solver());
     return by_cavities(clean_up(treat_paper(merged, *patch.size), *patch.size, {.rounds = kCleanupRounds}),

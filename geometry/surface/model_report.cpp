@@ -251,6 +251,17 @@ std::string list_curves(const Mesh& mesh, const std::vector<char>& listed) {
                      show_point(mesh.points[mesh.lines[line][0]]));
 }
 
+/// Returns whether all triangles lie in parallel planes, so that they can enclose nothing.
+bool is_flat(const Mesh& mesh) {
+  constexpr double kFlat = 1e-6;  // part of the largest area
+  Vec3 largest;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (const Vec3 area = area_vector(mesh, t); norm(area) > norm(largest)) largest = area;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (norm(cross(area_vector(mesh, t), largest)) > kFlat * dot(largest, largest)) return false;
+  return true;
+}
+
 }  // namespace
 
 void report_edges(SurfaceModel& model) {
@@ -262,7 +273,7 @@ void report_edges(SurfaceModel& model) {
     if (n == 1) free[mesh.line_curve[l]] = 1;
     if (n > 2) crowded[mesh.line_curve[l]] = 1;
   }
-  if (std::ranges::count(free, 1) > 0)
+  if (std::ranges::count(free, 1) > 0 && !is_flat(mesh))
     model.warnings.push_back("the surface is open: free curves: " + list_curves(mesh, free) +
                              "; a larger tolerance of welding closes gaps of a solid, a shell needs nothing");
   if (std::ranges::count(crowded, 1) > 0)

@@ -2,6 +2,7 @@
 #include "metrics/judgement/failing_elements.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -29,6 +30,7 @@ constexpr double kPartOfBound = 0.9, kCusp = kDegree;
 /// Edges on curves, and gaps between curves, below this part of the size leave no space for good quads.
 constexpr double kFine = 0.25;
 constexpr double kAny = std::numeric_limits<double>::infinity();
+constexpr const char* kSizeKey = "size";
 
 /// Edges of a mesh on curves of its model, with their faces.
 class CurveEdges {
@@ -308,24 +310,35 @@ bool is_given(const MeshingSetup& prepared) {
                              [](const PatchSetup& patch) { return !patch.given.points.empty(); });
 }
 
+/// Returns whether elements of a size may keep the least length, which is no part of the size then.
+bool allows_size(const Criteria& criteria, double size) {
+  const CriterionLimit* least = least_length(criteria);
+  return least == nullptr || least->in_sizes || size >= least->value;
+}
+
 /// Returns a remedy for a cause with `n` elements; empty: none is known.
-std::string advice(const MeshingSetup* prepared, const FailingElement& first, int n, const Cure& cure) {
+std::string advice(const MeshingSetup* prepared, const Criteria& criteria, const FailingElement& first, int n,
+                   const std::vector<Cure>& cures) {
   if (!prepared || is_given(*prepared) || (first.cause != kAtGap && first.cause != kAtFineCurve)) return "";
-  if ((prepared->surface && cure.count == 0) || !(first.what > 0)) return "";
-  if (prepared->surface)
-    return fmt::format(": --ignore-below {:.3g} may help{}", cure.value,
-                       cure.count < n ? fmt::format(" against {} of them", cure.count) : "");
+  if (prepared->surface) {
+    if (cures.empty() || cures[0].key == kSizeKey) return "";
+    return fmt::format(": --ignore-below {:.3g} may help{}", cures[0].value,
+                       cures[0].count < n ? fmt::format(" against {} of them", cures[0].count) : "");
+  }
+  if (!(first.what > 0)) return "";
   constexpr double kAbove = 1.01;
   const PlaneSetup& plane = prepared->plane;
-  std::string other;
-  if (first.cause == kAtFineCurve && plane.curve_places.empty()) other = "fewer points, or ";
+  std::vector<std::string> remedies;
+  if (first.cause == kAtFineCurve && plane.curve_places.empty()) remedies.emplace_back("fewer points");
   if (first.cause == kAtFineCurve && !plane.curve_places.empty() && !plane.ignores_small)
-    other =
-        fmt::format("--ignore-below {:.3g} (of a hole: more than it is around), or ", kAbove * first.what);
+    remedies.push_back(
+        fmt::format("--ignore-below {:.3g} (of a hole: more than it is around)", kAbove * first.what));
   if (first.cause == kAtGap && !plane.curve_places.empty() &&
       curve_options(prepared->settings.options).gap_rows == 0)
-    other = "--gap-rows 1 (but in corners), or ";
-  return fmt::format(": {}a size of {:.3g} there would help", other, first.what);
+    remedies.emplace_back("--gap-rows 1 (but in corners)");
+  if (allows_size(criteria, first.what))
+    remedies.push_back(fmt::format("a size of {:.3g} there", first.what));
+  return remedies.empty() ? "" : fmt::format(": {} would help", fmt::join(remedies, ", or "));
 }
 
 /// Returns "curve 7 (rim)".
@@ -465,18 +478,21 @@ std::string FailingElements::text_of(std::size_t limit) const {
   return describe(judged.mesh, tally.places, "1 element has " + what, "elements have " + what);
 }
 
-Cure FailingElements::cure_of(FailingCause cause) const {
+std::vector<Cure> FailingElements::cures_of(FailingCause cause) const {
   constexpr double kAbove = 1.05;  // part of the length that must be exceeded
-  Cure cure{kCauseNames[cause], "surface.ignore_below"};
-  if (!judged.prepared || !judged.prepared->surface || is_given(*judged.prepared)) return cure;
+  if (!judged.prepared || !judged.prepared->surface || is_given(*judged.prepared)) return {};
+  Cure leave_out{kCauseNames[cause], "surface.ignore_below"}, refine{kCauseNames[cause], kSizeKey, kAny};
   for (const FailingElement& element : elements) {
     if (element.cause != cause) continue;
     if (element.ignored_below > 0)
-      ++cure.count, cure.value = std::max(cure.value, kAbove * element.ignored_below);
-    if (cause == kAtBend && (cure.count++ == 0 || element.what < cure.value))
-      cure.key = "size", cure.value = element.what;
+      ++leave_out.count, leave_out.value = std::max(leave_out.value, kAbove * element.ignored_below);
+    else if ((cause == kAtBend || cause == kAtGap || cause == kAtFineCurve) && element.what > 0 &&
+             allows_size(criteria, element.what))
+      ++refine.count, refine.value = std::min(refine.value, element.what);
   }
-  return cure;
+  std::vector<Cure> cures{std::move(leave_out), std::move(refine)};
+  std::erase_if(cures, [](const Cure& cure) { return cure.count == 0; });
+  return cures;
 }
 
 std::string FailingElements::text_of(FailingCause cause, bool named, bool advised) const {
@@ -521,8 +537,9 @@ std::string FailingElements::text_of(FailingCause cause, bool named, bool advise
     default:
       return fmt::format("{} without a known cause, as in {}", n, at);
   }
-  return fmt::format("{} {}{}", n, why,
-                     advice(judged.prepared, *first, n, advised ? cure_of(cause) : Cure()));
+  return fmt::format(
+      "{} {}{}", n, why,
+      advice(judged.prepared, criteria, *first, n, advised ? cures_of(cause) : std::vector<Cure>()));
 }
 
 }  // namespace delquad

@@ -76,9 +76,9 @@ class FailingElements {
   /// finer than the size, ...". `named` tells curves, `advised` the remedy for a surface. Empty: there are
   /// none.
   std::string text_of(FailingCause cause, bool named, bool advised = true) const;
-  /// Returns the change that may cure elements with a cause, after explain(); its count is 0 if none is
-  /// known.
-  Cure cure_of(FailingCause cause) const;
+  /// Returns changes that may cure elements with a cause, after explain(). The first is to leave parts of the
+  /// model out, the next a finer size that the least length allows.
+  std::vector<Cure> cures_of(FailingCause cause) const;
   /// Returns a description of limit k: "3 elements have an angle below 20 degrees, the least 9.5: at ...";
   /// empty: it is kept.
   std::string text_of(std::size_t limit) const;

@@ -69,8 +69,9 @@ void warn_of_poor_quads(const std::string& label, const FailingElements& poor, c
       poor.elements.size(), mesh.quads.size(), poor.elements.size() == 1 ? "is" : "are", what,
       show_place(mesh, middle_of_quad(mesh, worst)), eta_of(quad_shape(mesh, worst, judged.sides).angle),
       quad_aspect(corners_of(mesh, mesh.quads[worst])));
+  const bool advised = judged.prepared->settings.criteria.empty();  // else their cures are told
   for (int cause = 0; cause < kFailingCauses; ++cause)
-    if (const std::string why = poor.text_of(static_cast<FailingCause>(cause), false); !why.empty())
+    if (const std::string why = poor.text_of(static_cast<FailingCause>(cause), false, advised); !why.empty())
       text += "; " + why;
   warnings.emplace_back(text + " [poor-quads]");
 }
@@ -162,7 +163,7 @@ CriteriaReport report_on(const JudgedMesh& judged, const Criteria& criteria) {
     const auto cause = static_cast<FailingCause>(k);
     if (std::string why = failing.text_of(cause, true, false); !why.empty())
       report.why.push_back(std::move(why));
-    if (Cure cure = failing.cure_of(cause); cure.count > 0) report.cures.push_back(std::move(cure));
+    std::ranges::move(failing.cures_of(cause), std::back_inserter(report.cures));
   }
   for (const char* program : kStepLengths)
     report.estimated_step[program] = estimated_step(judged, criteria, program);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -208,6 +209,7 @@ class Tabulation {
     const auto add_line = [&](const std::string& text) {
       if (said.insert(text).second) notes.push_back(text);
     };
+    note_uniform_sizes();
     for (const CellRecord& record : records_) {
       if (domain_of(record) != record.name)
         add_line(fmt::format("{} is the domain {}, and counts with it", record.name, record.domain));
@@ -242,18 +244,33 @@ class Tabulation {
                                                                     entry.first, entry.second));
   }
 
-  /// Says which size tau is measured against.
+  static bool is_uniform(const CellRecord& record) {
+    return !record.uniform_size.empty() && record.variant.empty();
+  }
+
+  /// Says which cases have a uniform size, a line for each size.
+  void note_uniform_sizes() {
+    constexpr std::size_t kMostNames = 8;
+    std::map<std::string, std::vector<std::string>> cases;
+    for (const CellRecord& record : records_) {
+      if (!is_uniform(record) || !record.size_adapted_to.empty()) continue;
+      auto& names = cases[record.uniform_size];
+      if (std::ranges::find(names, record.name) == names.end()) names.push_back(record.name);
+    }
+    for (const auto& [size, names] : cases)
+      outcome_.table.notes.push_back(
+          fmt::format("{}: uniform delta = {}", first_of(names, kMostNames), size));
+  }
+
+  /// Says against which size tau is measured, if not against the given one.
   template <class AddLine>
   static void note_size(const CellRecord& record, const AddLine& add_line) {
-    const bool uniform = !record.uniform_size.empty() && record.variant.empty();
-    if (record.size_adapted_to.empty()) {
-      if (uniform) add_line(fmt::format("{}: uniform delta = {}", record.name, record.uniform_size));
-      return;
-    }
-    add_line(fmt::format(
-        "{}: delta{} was made smaller for {}: tau is measured against that, tau given against "
-        "delta as it was given",
-        record.name, uniform ? " = " + record.uniform_size : "", fmt::join(record.size_adapted_to, " and ")));
+    if (record.size_adapted_to.empty()) return;
+    add_line(
+        fmt::format("{}: delta{} was made smaller for {}: tau is measured against that, tau given against "
+                    "delta as it was given",
+                    record.name, is_uniform(record) ? " = " + record.uniform_size : "",
+                    fmt::join(record.size_adapted_to, " and ")));
   }
 
   /// Adds notes with the number of failed cells among the cells that may fail.
