@@ -97,13 +97,13 @@ class MeshMirror {
 
   /// Moves the first quads of the part, and their images, before all others.
   void sort_quads() {
-    const Mesh all = mesh_;
-    mesh_.quads.clear(), mesh_.quad_region.clear();
+    const auto quads = std::exchange(mesh_.quads, {});
+    const std::vector<int> regions = std::exchange(mesh_.quad_region, {});
     for (const int first : {1, 0})
-      for (std::size_t q = 0; q < all.quads.size(); ++q) {
+      for (std::size_t q = 0; q < quads.size(); ++q) {
         if (is_first_[q] != first) continue;
-        mesh_.quads.push_back(all.quads[q]);
-        mesh_.quad_region.push_back(all.quad_region[q]);
+        mesh_.quads.push_back(quads[q]);
+        mesh_.quad_region.push_back(regions[q]);
       }
   }
 

@@ -65,6 +65,14 @@ def test_curves_and_points_inside():
     assert doubled in (3, 4, 5)
 
 
+def test_cracks_of_surfaces():
+    corners = [(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    plate = delquad.triangles(corners, [(0, 1, 2), (0, 2, 3)])
+    mesh = delquad.mesh(plate, size=0.1, embed=[([(0.2, 0.5, 1), (0.8, 0.5, 1)], "slit", True), (0.5, 0.2, 1)])
+    assert len(mesh.triangles) == 0
+    assert len(mesh.points) - len(np.unique(mesh.points, axis=0)) == 5  # ends inside are shared
+
+
 def test_planar_curves_and_their_names():
     sides = [
         delquad.segment((0, 0), (2, 0), name="bottom"),

@@ -157,6 +157,13 @@ TEST(Washers, AreRingsOnCad) {
   EXPECT_TRUE(r.soundness.sound());
 }
 
+TEST(Washers, GoAroundHolesOfWavyFaces) {
+  const MeshResult r = mesh(problem_of(ExampleModel{"free_form"}, 6, {{5, 40, 2}}), "DB");
+  EXPECT_EQ(count_told(r.warnings, "gets no rows"), 0);
+  EXPECT_EQ(r.log.summaries.number("layers", "quads"), 2 * r.log.summaries.number("layers", "columns"));
+  EXPECT_TRUE(r.soundness.sound());
+}
+
 TEST(Washers, KeepNumbersOfEdgesThatAreGiven) {
   MeshProblem planar = problem_of(plate({{20, 20, 4}}), 3, {{6, 10, 1, 12, 3}});
   planar.divisions = {{"curve_2", 18}};
