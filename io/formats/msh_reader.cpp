@@ -195,6 +195,12 @@ void settle_physicals(Contents& contents) {
 Mesh to_mesh(Contents contents, const TextScanner& scanner, MeshTags* tags) {
   if (contents.elements.empty()) scanner.fail("the file holds no lines, triangles, quads or cells");
   if (contents.nodes.empty()) scanner.fail("the file holds no nodes");
+  const bool has_cells = std::ranges::count(contents.elements, 3, &Element::dim) > 0;
+  for (Element& e : contents.elements) {
+    if (has_cells) e.n_further = 0;  // see complete_faces()
+    if (e.shape == CellShape::kTriangle && e.n_further > 0)
+      scanner.fail_at(e.line, "a second-order triangle: expected straight ones, but beside cells of volumes");
+  }
   std::ranges::stable_sort(contents.nodes, [](const Node& a, const Node& b) { return a.tag < b.tag; });
   check_tags(contents, scanner);
   // Programs list all points of a model: those without a group say nothing.

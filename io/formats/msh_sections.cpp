@@ -107,19 +107,18 @@ struct NodeCount {
   int corners() const { return corners_of(shape); }
 };
 
-/// Straight and curved elements are known, but no curved triangles.
+/// Straight and curved elements are known; triangles up to order 2.
 NodeCount nodes_of_type(int type, const TextScanner& scanner) {
   using enum CellShape;
   static const std::map<int, NodeCount> counts = {
-      {15, {kPoint, 1}},       {1, {kLine, 2}},         {8, {kLine, 3}},      {26, {kLine, 4}},
-      {27, {kLine, 5}},        {2, {kTriangle, 3}},     {3, {kQuad, 4}},      {16, {kQuad, 8}},
-      {10, {kQuad, 9}},        {36, {kQuad, 16}},       {37, {kQuad, 25}},    {5, {kHexahedron, 8}},
-      {17, {kHexahedron, 20}}, {12, {kHexahedron, 27}}, {6, {kPrism, 6}},     {18, {kPrism, 15}},
-      {13, {kPrism, 18}},      {7, {kPyramid, 5}},      {19, {kPyramid, 13}}, {14, {kPyramid, 14}},
-      {4, {kTetrahedron, 4}},  {11, {kTetrahedron, 10}}};
+      {15, {kPoint, 1}},     {1, {kLine, 2}},         {8, {kLine, 3}},         {26, {kLine, 4}},
+      {27, {kLine, 5}},      {2, {kTriangle, 3}},     {9, {kTriangle, 6}},     {3, {kQuad, 4}},
+      {16, {kQuad, 8}},      {10, {kQuad, 9}},        {36, {kQuad, 16}},       {37, {kQuad, 25}},
+      {5, {kHexahedron, 8}}, {17, {kHexahedron, 20}}, {12, {kHexahedron, 27}}, {6, {kPrism, 6}},
+      {18, {kPrism, 15}},    {13, {kPrism, 18}},      {7, {kPyramid, 5}},      {19, {kPyramid, 13}},
+      {14, {kPyramid, 14}},  {4, {kTetrahedron, 4}},  {11, {kTetrahedron, 10}}};
   if (const auto known = counts.find(type); known != counts.end()) return known->second;
-  static const std::map<int, const char*> names = {{9, "second-order triangle"},
-                                                   {20, "third-order triangle"},
+  static const std::map<int, const char*> names = {{20, "third-order triangle"},
                                                    {21, "third-order triangle"},
                                                    {39, "third-order quad without inner nodes"}};
   const auto name = names.find(type);

@@ -78,12 +78,12 @@ TEST(CellFiles, KeepFieldsOfCells) {
 TEST(CellFiles, OfOtherProgramsGetTheFacesThatTheyLack) {
   const Folder folder;
   ReadNotes notes;
-  // A tetrahedron of order 2, and a triangle that is no side of it.
+  // A tetrahedron of order 2 with a side, and a triangle that is none.
   write_text(
       folder / "a.msh",
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n11\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
       "5 .5 0 0\n6 .5 .5 0\n7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n11 2 0 0\n$EndNodes\n$Elements\n"
-      "2\n1 11 2 7 7 1 2 3 4 5 6 7 8 9 10\n2 2 2 1 1 1 2 11\n$EndElements\n");
+      "3\n1 11 2 7 7 1 2 3 4 5 6 7 8 9 10\n2 2 2 1 1 1 2 11\n3 9 2 2 2 1 2 3 5 6 7\n$EndElements\n");
   const Mesh mesh = read_mesh(folder / "a.msh", &notes);
   EXPECT_EQ(mesh.tetrahedra.size(), 1u);
   EXPECT_EQ(mesh.triangles.size(), 4u);

@@ -105,7 +105,7 @@ TEST_F(MshReader, NamesTheLineOfWhatIsWrong) {
                {"case.msh:26: ", "node tag 1 is used twice", "line 20"});
   expect_error(with(kSquare41, "2 3 2 2\n", "2 3 4 2\n"),
                {"case.msh:43: ", "4 corners in a block of dimension 2"});
-  expect_error(with(kSquare41, "2 3 2 2\n", "2 3 9 2\n"), {"case.msh:43: ", "second-order triangle"});
+  expect_error(with(kSquare41, "2 3 2 2\n", "2 3 20 2\n"), {"case.msh:43: ", "third-order triangle"});
   expect_error(with(kSquare41, "2 3 2 2\n", "2 3 99 2\n"), {"case.msh:43: ", "element type 99"});
   expect_error(with(kSquare41, "2 3 2 2\n", "1 3 2 2\n"), {"case.msh:43: ", "dimension 1"});
   expect_error(with(kSquare22, "8 2 2 1 3", "8 39 2 1 3"), {"case.msh:26: ", "third-order quad without"});

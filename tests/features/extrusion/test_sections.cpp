@@ -229,7 +229,7 @@ TEST(Sections, TheSameBytesForEveryNumberOfThreads) {
             std::vector{"face \"" + std::string(90, 'x') + "\" is " + std::string(70, 'x')});
   EXPECT_TRUE(renamed_in_file("a.vtu", named).empty());
   expect_input_error([&] { write_mesh(folder / "a.obj", named); },
-                     {"a.obj", "not written with hexahedra", ".msh, .vtu, .inp, "});
+                     {"a.obj", "not written with cells", ".msh, .vtu, .inp, "});
   expect_input_error([&] { write_mesh(folder / "a.what", named); }, {"unknown kind", ".what"});
   expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.binary = true}); }, {"no binary form"});
   expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.element = "C3D8"}); },
