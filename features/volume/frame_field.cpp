@@ -79,6 +79,10 @@ std::array<Vec3, 3> nearest_rotation(std::array<Vec3, 3> x, const std::array<Vec
 constexpr double kSpacing = 1.6;
 /// Most points of the background along its grid.
 constexpr double kMostGrid = 3e5;
+/// Sine of the diagonals of a quad below which it tells no directions.
+constexpr double kFlat = 1e-6;
+/// Least size, in the median at the skin.
+constexpr double kLeastSize = 0.02;
 constexpr int kLinearSweeps = 60, kProjectedSweeps = 12;
 
 /// Returns a number in [-0.5, 0.5) that depends on i alone.
@@ -166,10 +170,11 @@ void FrameField::fix_skin(const std::vector<std::array<int, 4>>& quads) {
   known_.assign(n_skin_, {});
   quartics_.assign(n_skin_, Quartic{});
   tensors_.assign(n_skin_, Tensor{});
-  std::vector<std::array<Vec3, 3>> first(n_skin_);
+  std::vector<std::array<Vec3, 3>> first(n_skin_, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   for (const auto& q : quads) {
     const Vec3 d = direction_of(points_[q[2]] - points_[q[0]]),
                e = direction_of(points_[q[3]] - points_[q[1]]);
+    if (norm(cross(d, e)) < kFlat) continue;
     const Vec3 u = direction_of(d - e), n = direction_of(cross(d, e));
     const std::array<Vec3, 3> axes = {u, cross(n, u), n};
     const Quartic p = quartic_of(axes);
@@ -205,6 +210,7 @@ void FrameField::make_cells(const std::vector<Vec3>& points, const Skin& skin) {
   std::vector<double> sizes;
   for (int v = 0; v < n_skin_; ++v) sizes.push_back((tensors_[v][0] + tensors_[v][1] + tensors_[v][2]) / 3);
   std::ranges::nth_element(sizes, sizes.begin() + n_skin_ / 2);
+  least_size_ = kLeastSize * sizes[n_skin_ / 2];
   const Box<Vec3> box = Box<Vec3>::around(points);
   const Vec3 extent = box.size();
   const double step =
@@ -297,7 +303,8 @@ void FrameField::diffuse() {
       quartics_[v] = quartic_of(frames_[v].axes);
     }
   for (int v = 0; v < n; ++v)
-    for (int k = 0; k < 3; ++k) frames_[v].sizes[k] = along(tensors_[v], frames_[v].axes[k]);
+    for (int k = 0; k < 3; ++k)
+      frames_[v].sizes[k] = std::max(least_size_, along(tensors_[v], frames_[v].axes[k]));
 }
 
 Frame FrameField::at(const Vec3& x, const Frame& guess, int& cell) const {
@@ -311,7 +318,7 @@ Frame FrameField::at(const Vec3& x, const Frame& guess, int& cell) const {
          -dot(a - x, cross(b - x, d - x))};
     int worst = 0;
     for (int k = 0; k < 4; ++k) {
-      w[k] /= whole;
+      w[k] = whole > 0 ? w[k] / whole : 0.25;
       if (w[k] < w[worst]) worst = k;
     }
     if (!(w[worst] < -1e-9) || step == 999) break;
@@ -326,7 +333,7 @@ Frame FrameField::at(const Vec3& x, const Frame& guess, int& cell) const {
     for (int m = 0; m < 6; ++m) size[m] += weight * tensors_[cells_[cell][k]][m];
   }
   Frame frame{project(p, guess.axes), {}};
-  for (int k = 0; k < 3; ++k) frame.sizes[k] = along(size, frame.axes[k]);
+  for (int k = 0; k < 3; ++k) frame.sizes[k] = std::max(least_size_, along(size, frame.axes[k]));
   return frame;
 }
 

@@ -55,6 +55,7 @@ class FrameField {
   static double value(const Quartic& p, const std::array<Vec3, 3>& axes);
 
   int n_skin_;
+  double least_size_ = 0;
   std::vector<Vec3> points_;
   std::vector<std::array<int, 4>> cells_, neighbours_;
   std::vector<int> cell_of_;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <map>
 #include <unordered_map>
 
 #include "base/sort_unique.h"
@@ -16,7 +14,7 @@ namespace {
 /// Least distance of a new point to others, in sizes. With 0.65 the share of hexahedra falls by 3 points.
 constexpr double kNear = 0.55;
 /// Greatest distance of a neighbor from its place, in sizes: of the best one, and of all that may serve.
-constexpr double kSlot = 0.5, kEdge = 0.7;
+constexpr double kSlot = 0.5, kEdge = 0.75;
 /// Most neighbors along a direction.
 constexpr std::size_t kMostBeside = 3;
 /// Least distance of a new point to the skin, in its least size, and the same after moves.
@@ -103,7 +101,7 @@ class PointFront {
       thin();
       find_slots();
     }
-    Lattice lattice{points_, frames_, {}, {}};
+    Lattice lattice{points_, {}, {}};
     lattice.best.resize(points_.size()), lattice.beside.resize(points_.size());
     const auto join = [](auto& lists, int p, int q) {
       lists[p].push_back(q);

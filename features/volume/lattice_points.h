@@ -14,7 +14,6 @@ namespace delquad {
 /// Points with their neighbors along the directions of frames.
 struct Lattice {
   std::vector<Vec3> points;  ///< the vertices of the skin first
-  std::vector<Frame> frames;
   /// By point, ascending, the best neighbors along the directions, and all that may serve. Both lists have
   /// the sides of quads.
   std::vector<std::vector<int>> best, beside;

@@ -478,7 +478,7 @@ void separate_sides(const std::vector<Vec3>& points, const std::vector<std::arra
     double length = 0;
     for (const auto& [q, hex] : sides) {
       for (int k = 0; k < 4; ++k) triangles.push_back({q[k], q[(k + 1) % 4], q[(k + 2) % 4]});
-      length += norm(points[q[1]] - points[q[0]]) / sides.size();
+      length += norm(points[q[1]] - points[q[0]]) / static_cast<double>(sides.size());
     }
     const auto may_cross = [&](int a, int b) {
       return a / 4 == b / 4 || (sides[a / 4].second < 0 && sides[b / 4].second < 0);
