@@ -21,9 +21,10 @@ struct Lattice {
 
 /// Returns a lattice that follows the field inside of the skin.
 ///
-/// A front starts at the skin. Each point proposes a point at one size along each direction. It is kept if no
-/// other is too near in the L-infinity norm of its frame. Then points move to where their neighbors
-/// want them, crowded points go, and the front fills gaps again.
+/// A front starts at the skin, as the front of squares in the plane [remacle2013]. Each point proposes a
+/// point at one size along each direction. It is kept if no other is too near in the L-infinity norm of its
+/// frame. Then points move to where their neighbors want them, crowded points go, and the front fills gaps
+/// again.
 Lattice fill_with_points(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
                          const Skin& skin, const FrameField& field);
 
