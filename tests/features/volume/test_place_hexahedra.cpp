@@ -92,7 +92,8 @@ double expect_placed(const Mesh& skin, const Mesh& mesh) {
     }
   }
   EXPECT_FALSE(find_crossing(mesh.points, triangles, [](int a, int b) { return a / 4 == b / 4; }));
-  if (!mesh.hexahedra.empty()) EXPECT_GT(measure(mesh).least_jacobian, 0);
+  EXPECT_FALSE(mesh.hexahedra.empty());
+  EXPECT_GT(measure(mesh).least_jacobian, 0);
   return filled / whole;
 }
 
