@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/frame_field.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace delquad {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex>>;
+
+/// Exponents of the monomials of degree four.
+constexpr std::array<std::array<int, 3>, 15> kPowers = {{{4, 0, 0},
+                                                         {0, 4, 0},
+                                                         {0, 0, 4},
+                                                         {3, 1, 0},
+                                                         {3, 0, 1},
+                                                         {1, 3, 0},
+                                                         {0, 3, 1},
+                                                         {1, 0, 3},
+                                                         {0, 1, 3},
+                                                         {2, 2, 0},
+                                                         {2, 0, 2},
+                                                         {0, 2, 2},
+                                                         {2, 1, 1},
+                                                         {1, 2, 1},
+                                                         {1, 1, 2}}};
+constexpr std::array<double, 15> kMultinomial = {1, 1, 1, 4, 4, 4, 4, 4, 4, 6, 6, 6, 12, 12, 12};
+
+std::array<std::array<double, 5>, 3> powers(const Vec3& a) {
+  std::array<std::array<double, 5>, 3> p;
+  for (int k = 0; k < 3; ++k) {
+    p[k][0] = 1;
+    for (int i = 1; i < 5; ++i) p[k][i] = p[k][i - 1] * coordinate(a, k);
+  }
+  return p;
+}
+
+Vec3 direction_of(const Vec3& v) {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : Vec3{0, 0, 0};
+}
+
+double along(const std::array<double, 6>& m, const Vec3& a) {
+  return m[0] * a.x * a.x + m[1] * a.y * a.y + m[2] * a.z * a.z +
+         2 * (m[3] * a.x * a.y + m[4] * a.x * a.z + m[5] * a.y * a.z);
+}
+
+void add_square(std::array<double, 6>& m, double factor, const Vec3& a) {
+  m[0] += factor * a.x * a.x, m[1] += factor * a.y * a.y, m[2] += factor * a.z * a.z;
+  m[3] += factor * a.x * a.y, m[4] += factor * a.x * a.z, m[5] += factor * a.y * a.z;
+}
+
+/// Returns the rotation nearest to the matrix of three rows, by Newton's iteration; the guess if it fails.
+std::array<Vec3, 3> nearest_rotation(std::array<Vec3, 3> x, const std::array<Vec3, 3>& guess) {
+  for (int i = 0; i < 20; ++i) {
+    std::array<Vec3, 3> c = {cross(x[1], x[2]), cross(x[2], x[0]), cross(x[0], x[1])};
+    const double det = dot(x[0], c[0]);
+    if (!(det > 1e-12)) return guess;
+    double change = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 next = 0.5 * (x[k] + (1 / det) * c[k]);
+      change = std::max(change, norm(next - x[k]));
+      x[k] = next;
+    }
+    if (change < 1e-8) break;
+  }
+  return x;
+}
+
+/// Returns the side of a background tetrahedron, in sizes of the skin.
+constexpr double kSpacing = 1.6;
+/// Most points of the background along its grid.
+constexpr double kMostGrid = 3e5;
+/// Sine of the diagonals of a quad below which it tells no directions.
+constexpr double kFlat = 1e-6;
+/// Least size, in the median at the skin.
+constexpr double kLeastSize = 0.02;
+constexpr int kLinearSweeps = 60, kProjectedSweeps = 12;
+
+/// Returns a number in [-0.5, 0.5) that depends on i alone.
+double scatter(unsigned i) {
+  i = (i ^ 61u) ^ (i >> 16);
+  i *= 9u;
+  i ^= i >> 4;
+  i *= 0x27d4eb2du;
+  i ^= i >> 15;
+  return i / 4294967296.0 - 0.5;
+}
+
+}  // namespace
+
+double Frame::length(const Vec3& v) const {
+  return std::max({std::abs(dot(v, axes[0])) / sizes[0], std::abs(dot(v, axes[1])) / sizes[1],
+                   std::abs(dot(v, axes[2])) / sizes[2]});
+}
+
+int Frame::nearest(const Vec3& v) const {
+  int best = 0;
+  double most = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double part = dot(v, axes[k]);
+    if (std::abs(part) > most) most = std::abs(part), best = part > 0 ? k : k + 3;
+  }
+  return best;
+}
+
+FrameField::Quartic FrameField::quartic_of(const std::array<Vec3, 3>& axes) {
+  Quartic p{};
+  for (const Vec3& a : axes) {
+    const auto x = powers(a);
+    for (int m = 0; m < 15; ++m)
+      p[m] += kMultinomial[m] * x[0][kPowers[m][0]] * x[1][kPowers[m][1]] * x[2][kPowers[m][2]];
+  }
+  return p;
+}
+
+double FrameField::value(const Quartic& p, const std::array<Vec3, 3>& axes) {
+  double sum = 0;
+  for (const Vec3& a : axes) {
+    const auto x = powers(a);
+    for (int m = 0; m < 15; ++m)
+      sum += p[m] * x[0][kPowers[m][0]] * x[1][kPowers[m][1]] * x[2][kPowers[m][2]];
+  }
+  return sum;
+}
+
+/// Maximizes the sum of p over the axes: the polar part of the gradients does not lower it, as p is convex.
+std::array<Vec3, 3> FrameField::project(const Quartic& p, std::array<Vec3, 3> axes) {
+  for (int i = 0; i < 30; ++i) {
+    std::array<Vec3, 3> gradients;
+    for (int k = 0; k < 3; ++k) {
+      const auto x = powers(axes[k]);
+      Vec3 g{0, 0, 0};
+      for (int m = 0; m < 15; ++m) {
+        const auto& [a, b, c] = kPowers[m];
+        if (a > 0) g.x += p[m] * a * x[0][a - 1] * x[1][b] * x[2][c];
+        if (b > 0) g.y += p[m] * b * x[0][a] * x[1][b - 1] * x[2][c];
+        if (c > 0) g.z += p[m] * c * x[0][a] * x[1][b] * x[2][c - 1];
+      }
+      gradients[k] = 0.25 * g + 0.02 * axes[k];
+    }
+    const auto next = nearest_rotation(gradients, axes);
+    const double change =
+        std::max({norm(next[0] - axes[0]), norm(next[1] - axes[1]), norm(next[2] - axes[2])});
+    axes = next;
+    if (change < 2e-3) break;
+  }
+  return axes;
+}
+
+FrameField::FrameField(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
+                       const Skin& skin)
+    : n_skin_(static_cast<int>(points.size())), points_(points) {
+  fix_skin(quads);
+  make_cells(points, skin);
+  diffuse();
+}
+
+/// Sets frames and known sizes at the skin.
+void FrameField::fix_skin(const std::vector<std::array<int, 4>>& quads) {
+  frames_.resize(n_skin_);
+  known_.assign(n_skin_, {});
+  quartics_.assign(n_skin_, Quartic{});
+  tensors_.assign(n_skin_, Tensor{});
+  std::vector<std::array<Vec3, 3>> first(n_skin_, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  for (const auto& q : quads) {
+    const Vec3 d = direction_of(points_[q[2]] - points_[q[0]]),
+               e = direction_of(points_[q[3]] - points_[q[1]]);
+    if (norm(cross(d, e)) < kFlat) continue;
+    const Vec3 u = direction_of(d - e), n = direction_of(cross(d, e));
+    const std::array<Vec3, 3> axes = {u, cross(n, u), n};
+    const Quartic p = quartic_of(axes);
+    for (const int v : q) {
+      for (int m = 0; m < 15; ++m) quartics_[v][m] += p[m];
+      first[v] = axes;
+    }
+  }
+  std::vector<std::array<double, 6>> sums(n_skin_);
+  for (int v = 0; v < n_skin_; ++v) frames_[v].axes = project(quartics_[v], first[v]);
+  for (const auto& q : quads)
+    for (int k = 0; k < 4; ++k)
+      for (const auto& [v, w] : {std::pair(q[k], q[(k + 1) % 4]), {q[(k + 1) % 4], q[k]}}) {
+        const Vec3 e = points_[w] - points_[v];
+        const int axis = frames_[v].nearest(e) % 3;
+        if (std::abs(dot(e, frames_[v].axes[axis])) < 0.75 * norm(e)) continue;
+        sums[v][axis] += norm(e), sums[v][axis + 3] += 1;
+      }
+  for (int v = 0; v < n_skin_; ++v) {
+    double mean = 0, count = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (sums[v][k + 3] > 0) known_[v][k] = sums[v][k] / sums[v][k + 3];
+      mean += sums[v][k], count += sums[v][k + 3];
+    }
+    for (int k = 0; k < 3; ++k)
+      add_square(tensors_[v], known_[v][k] > 0 ? known_[v][k] : mean / std::max(count, 1.0),
+                 frames_[v].axes[k]);
+    quartics_[v] = quartic_of(frames_[v].axes);
+  }
+}
+
+void FrameField::make_cells(const std::vector<Vec3>& points, const Skin& skin) {
+  std::vector<double> sizes;
+  for (int v = 0; v < n_skin_; ++v) sizes.push_back((tensors_[v][0] + tensors_[v][1] + tensors_[v][2]) / 3);
+  std::ranges::nth_element(sizes, sizes.begin() + n_skin_ / 2);
+  least_size_ = kLeastSize * sizes[n_skin_ / 2];
+  const Box<Vec3> box = Box<Vec3>::around(points);
+  const Vec3 extent = box.size();
+  const double step =
+      std::max(kSpacing * sizes[n_skin_ / 2], std::cbrt(extent.x * extent.y * extent.z / kMostGrid));
+  unsigned counter = 0;
+  for (double x = box.low.x + 0.5 * step; x < box.high.x; x += step)
+    for (double y = box.low.y + 0.5 * step; y < box.high.y; y += step)
+      for (double z = box.low.z + 0.5 * step; z < box.high.z; z += step) {
+        const double dx = scatter(counter++), dy = scatter(counter++), dz = scatter(counter++);
+        const Vec3 at = Vec3{x, y, z} + (0.2 * step) * Vec3{dx, dy, dz};
+        if (skin.distance(at, 0.6 * step) <= 0.6 * step || !skin.contains(at)) continue;
+        points_.push_back(at);
+      }
+
+  std::vector<std::pair<Kernel::Point_3, int>> nodes;
+  for (const Vec3& p : points_)
+    nodes.emplace_back(Kernel::Point_3(p.x, p.y, p.z), static_cast<int>(nodes.size()));
+  const Delaunay delaunay(nodes.begin(), nodes.end());
+  std::map<Delaunay::Cell_handle, int> index;
+  cell_of_.assign(n_skin_, -1);
+  for (const auto cell : delaunay.finite_cell_handles()) {
+    index[cell] = static_cast<int>(cells_.size());
+    std::array<int, 4> corners;
+    for (int k = 0; k < 4; ++k) {
+      corners[k] = cell->vertex(k)->info();
+      if (corners[k] < n_skin_) cell_of_[corners[k]] = static_cast<int>(cells_.size());
+    }
+    cells_.push_back(corners);
+  }
+  neighbours_.resize(cells_.size());
+  std::map<std::array<int, 2>, double> edges;
+  for (const auto& [cell, i] : index) {
+    for (int k = 0; k < 4; ++k) {
+      const auto other = index.find(cell->neighbor(k));
+      neighbours_[i][k] = other == index.end() ? -1 : other->second;
+    }
+  }
+  for (const auto& c : cells_) {
+    const Vec3 centre = 0.25 * (points_[c[0]] + points_[c[1]] + points_[c[2]] + points_[c[3]]);
+    if (!skin.contains(centre)) continue;
+    for (int k = 0; k < 4; ++k)
+      for (int l = k + 1; l < 4; ++l) {
+        const Vec3 e = points_[c[k]] - points_[c[l]];
+        edges[{std::min(c[k], c[l]), std::max(c[k], c[l])}] = 1 / std::max(dot(e, e), 1e-300);
+      }
+  }
+  beside_.resize(points_.size());
+  for (const auto& [edge, weight] : edges)
+    for (int k = 0; k < 2; ++k) beside_[edge[k]].emplace_back(edge[1 - k], weight);
+}
+
+void FrameField::diffuse() {
+  const int n = static_cast<int>(points_.size());
+  Quartic mean{};
+  Tensor size{};
+  for (int v = 0; v < n_skin_; ++v) {
+    for (int m = 0; m < 15; ++m) mean[m] += quartics_[v][m] / n_skin_;
+    for (int m = 0; m < 6; ++m) size[m] += tensors_[v][m] / n_skin_;
+  }
+  quartics_.resize(n, mean);
+  tensors_.resize(n, size);
+  const auto average = [&](int v, const auto& values) {
+    std::remove_cvref_t<decltype(values[v])> sum{};
+    double total = 0;
+    for (const auto& [w, weight] : beside_[v]) {
+      for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += weight * values[w][m];
+      total += weight;
+    }
+    if (total == 0) return values[v];
+    for (double& s : sum) s /= total;
+    return sum;
+  };
+  for (int sweep = 0; sweep < kLinearSweeps; ++sweep)
+    for (int v = 0; v < n; ++v) {
+      if (v >= n_skin_) quartics_[v] = average(v, quartics_);
+      tensors_[v] = average(v, tensors_);
+      for (int k = 0; k < 3 && v < n_skin_; ++k)
+        if (known_[v][k] > 0)
+          add_square(tensors_[v], known_[v][k] - along(tensors_[v], frames_[v].axes[k]), frames_[v].axes[k]);
+    }
+  frames_.resize(n);
+  for (int sweep = 0; sweep < kProjectedSweeps; ++sweep)
+    for (int v = n_skin_; v < n; ++v) {
+      const Quartic p = sweep == 0 ? quartics_[v] : average(v, quartics_);
+      std::array<Vec3, 3> best = sweep == 0 ? frames_[0].axes : frames_[v].axes;
+      if (sweep == 0)
+        for (const auto& [w, weight] : beside_[v])
+          if ((w < v) && value(p, frames_[w].axes) > value(p, best)) best = frames_[w].axes;
+      frames_[v].axes = project(p, best);
+      quartics_[v] = quartic_of(frames_[v].axes);
+    }
+  for (int v = 0; v < n; ++v)
+    for (int k = 0; k < 3; ++k)
+      frames_[v].sizes[k] = std::max(least_size_, along(tensors_[v], frames_[v].axes[k]));
+}
+
+Frame FrameField::at(const Vec3& x, const Frame& guess, int& cell) const {
+  std::array<double, 4> w{};
+  if (cell < 0) return guess;
+  for (int step = 0; step < 1000; ++step) {
+    const auto& c = cells_[cell];
+    const Vec3 &a = points_[c[0]], &b = points_[c[1]], &d = points_[c[2]], &e = points_[c[3]];
+    const double whole = dot(b - a, cross(d - a, e - a));
+    w = {dot(b - x, cross(d - x, e - x)), -dot(a - x, cross(d - x, e - x)), dot(a - x, cross(b - x, e - x)),
+         -dot(a - x, cross(b - x, d - x))};
+    int worst = 0;
+    for (int k = 0; k < 4; ++k) {
+      w[k] = whole > 0 ? w[k] / whole : 0.25;
+      if (w[k] < w[worst]) worst = k;
+    }
+    if (!(w[worst] < -1e-9) || step == 999) break;
+    cell = neighbours_[cell][worst];
+    if (cell < 0) return guess;
+  }
+  Quartic p{};
+  Tensor size{};
+  for (int k = 0; k < 4; ++k) {
+    const double weight = std::clamp(w[k], 0.0, 1.0);
+    for (int m = 0; m < 15; ++m) p[m] += weight * quartics_[cells_[cell][k]][m];
+    for (int m = 0; m < 6; ++m) size[m] += weight * tensors_[cells_[cell][k]][m];
+  }
+  Frame frame{project(p, guess.axes), {}};
+  for (int k = 0; k < 3; ++k) frame.sizes[k] = std::max(least_size_, along(size, frame.axes[k]));
+  return frame;
+}
+
+}  // namespace delquad

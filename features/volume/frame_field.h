@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "delquad/mesh.h"
+#include "features/volume/skin.h"
+
+// This header has directions and sizes of hexahedra inside a skin of quads. Points inside follow them.
+
+namespace delquad {
+
+/// Three orthogonal directions of unit length, right-handed, and the wanted length of edges along each.
+struct Frame {
+  std::array<Vec3, 3> axes;
+  std::array<double, 3> sizes;
+
+  /// Returns direction 0 to 5 of edges: along the axes, then against them.
+  Vec3 along(int direction) const { return direction < 3 ? axes[direction] : -1.0 * axes[direction - 3]; }
+  double size(int direction) const { return sizes[direction % 3]; }
+  /// Returns the L-infinity norm of v along the axes, in sizes.
+  double length(const Vec3& v) const;
+  /// Returns the direction nearest to v.
+  int nearest(const Vec3& v) const;
+};
+
+/// Frames and sizes: at the skin along normals and sides of quads, inside harmonic.
+///
+/// A frame is the polynomial of degree four that is the sum of (a.x)^4 over its axes a, which no permutation
+/// of axes changes. Means of such polynomials are projected to the nearest frame, as crosses are in the
+/// plane. The Laplace problem lives on the Delaunay tetrahedra of the skin's vertices and of points inside.
+/// Sizes are a tensor; across a smooth skin its value comes from inside.
+class FrameField {
+ public:
+  FrameField(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads, const Skin& skin);
+
+  const Frame& at_skin(int vertex) const { return frames_[vertex]; }
+  /// Returns a tetrahedron at a vertex of the skin, for at().
+  int cell_at_skin(int vertex) const { return cell_of_[vertex]; }
+  /// Returns the frame at x, with axes near to the axes of `guess`. `cell` is a tetrahedron near x, and
+  /// becomes the one around x; it becomes -1 outside of all.
+  Frame at(const Vec3& x, const Frame& guess, int& cell) const;
+
+ private:
+  using Quartic = std::array<double, 15>;
+  using Tensor = std::array<double, 6>;
+
+  void make_cells(const std::vector<Vec3>& points, const Skin& skin);
+  void fix_skin(const std::vector<std::array<int, 4>>& quads);
+  void diffuse();
+  static Quartic quartic_of(const std::array<Vec3, 3>& axes);
+  static std::array<Vec3, 3> project(const Quartic& p, std::array<Vec3, 3> axes);
+  static double value(const Quartic& p, const std::array<Vec3, 3>& axes);
+
+  int n_skin_;
+  double least_size_ = 0;
+  std::vector<Vec3> points_;
+  std::vector<std::array<int, 4>> cells_, neighbours_;
+  std::vector<int> cell_of_;
+  std::vector<std::vector<std::pair<int, double>>> beside_;  ///< by node, neighbors with weights
+  std::vector<Quartic> quartics_;
+  std::vector<Tensor> tensors_;
+  std::vector<Frame> frames_;
+  std::vector<std::array<double, 3>> known_;  ///< by vertex of the skin, sizes along its axes; 0: unknown
+};
+
+}  // namespace delquad

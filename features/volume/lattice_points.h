@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "features/volume/frame_field.h"
+#include "features/volume/skin.h"
+
+// This header fills a body with points at the corners of hexahedra. The recognition of hexahedra uses them.
+
+namespace delquad {
+
+/// Points with their neighbors along the directions of frames.
+struct Lattice {
+  std::vector<Vec3> points;  ///< the vertices of the skin first
+  /// By point, ascending, the best neighbors along the directions, and all that may serve. Both lists have
+  /// the sides of quads.
+  std::vector<std::vector<int>> best, beside;
+};
+
+/// Returns a lattice that follows the field inside of the skin.
+///
+/// A front starts at the skin, as the front of squares in the plane [remacle2013]. Each point proposes a
+/// point at one size along each direction. It is kept if no other is too near in the L-infinity norm of its
+/// frame. Then points move to where their neighbors want them, crowded points go, and the front fills gaps
+/// again.
+Lattice fill_with_points(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
+                         const Skin& skin, const FrameField& field);
+
+}  // namespace delquad

@@ -1,0 +1,502 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/select_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <queue>
+
+#include "base/box_tree.h"
+#include "base/parallel.h"
+#include "base/sort_unique.h"
+#include "geometry/mesh/cell_shapes.h"
+#include "geometry/mesh/find_crossings.h"
+#include "metrics/cells.h"
+
+namespace delquad {
+namespace {
+
+/// Least scaled Jacobian of a hexahedron.
+constexpr double kLeastJacobian = 0.35;
+constexpr int kExchangeRounds = 10;
+/// Most hexahedra with the same first vertex, the best ones.
+constexpr std::size_t kMostAtVertex = 8;
+/// Centers nearer than this, in the shorter mean edge, mean an overlap.
+constexpr double kTooNear = 0.5;
+/// Least angle between hexahedra that share an edge, but no side.
+constexpr double kLeastWedge = 15 * std::numbers::pi / 180;
+constexpr double kSkinWedge = 20 * std::numbers::pi / 180;
+/// Least gap between hexahedra that share nothing, in their mean edge.
+constexpr double kLeastGap = 0.08;
+
+using cell_tables::kHexEdges, cell_tables::kHexSides;
+
+/// The three corners beside each corner, so that their directions are right-handed.
+constexpr std::array<std::array<int, 3>, 8> kBeside = {
+    {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
+
+bool is_edge(int a, int b) {
+  const auto& [x, y, z] = kBeside[a];
+  return b == x || b == y || b == z;
+}
+
+/// Returns the side with these corners, bits by corner; -1: none.
+int side_with(unsigned corners) {
+  for (int s = 0; s < 6; ++s) {
+    unsigned bits = 0;
+    for (const int c : kHexSides[s]) bits |= 1u << c;
+    if (bits == corners) return s;
+  }
+  return -1;
+}
+
+using Corners = std::array<Vec3, 8>;
+
+Vec3 centre_of(const Corners& x) {
+  Vec3 sum{0, 0, 0};
+  for (const Vec3& p : x) sum = sum + p;
+  return 0.125 * sum;
+}
+
+std::array<int, 4> sorted(std::array<int, 4> q) {
+  std::ranges::sort(q);
+  return q;
+}
+
+std::array<int, 4> side_of(const Hexahedron& hex, int s) {
+  return {hex[kHexSides[s][0]], hex[kHexSides[s][1]], hex[kHexSides[s][2]], hex[kHexSides[s][3]]};
+}
+
+/// A hexahedron with all that tests of pairs need.
+struct Placed {
+  Hexahedron hex;
+  Corners x;
+  Vec3 centre;
+  double edge;                  ///< mean length
+  std::array<Vec3, 6> normals;  ///< of sides, outwards
+  std::array<Vec3, 3> axes;     ///< mean edges
+};
+
+Placed placed(const std::vector<Vec3>& points, const Hexahedron& hex) {
+  Placed s{hex, corners_of(points, hex), {}, 0, {}, {}};
+  s.centre = centre_of(s.x);
+  for (const auto& [a, b] : kHexEdges) s.edge += norm(s.x[b] - s.x[a]) / 12;
+  for (int k = 0; k < 6; ++k) {
+    const auto& f = kHexSides[k];
+    s.normals[k] = cross(s.x[f[2]] - s.x[f[0]], s.x[f[3]] - s.x[f[1]]);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const auto& f = kHexSides[std::array{3, 4, 1}[k]];
+    s.axes[k] = s.x[f[0]] + s.x[f[1]] + s.x[f[2]] + s.x[f[3]] - 4 * s.centre;
+  }
+  return s;
+}
+
+/// Returns whether a plane across n separates all corners by `gap`.
+bool is_between(const Placed& a, const Placed& b, const Vec3& n, double gap) {
+  double most = -INFINITY, least = INFINITY;
+  for (int k = 0; k < 8; ++k) most = std::max(most, dot(n, a.x[k])), least = std::min(least, dot(n, b.x[k]));
+  return least - most >= gap * norm(n);
+}
+
+bool are_apart(const Placed& a, const Placed& b) {
+  const double gap = kLeastGap * 0.5 * (a.edge + b.edge);
+  if (is_between(a, b, b.centre - a.centre, gap)) return true;
+  for (int k = 0; k < 6; ++k)
+    if (is_between(a, b, a.normals[k], gap) || is_between(a, b, -1.0 * b.normals[k], gap)) return true;
+  for (const Vec3& u : a.axes)
+    for (const Vec3& v : b.axes) {
+      const Vec3 n = cross(u, v);
+      if (norm(n) < 1e-3 * norm(u) * norm(v)) continue;
+      if (is_between(a, b, n, gap) || is_between(a, b, -1.0 * n, gap)) return true;
+    }
+  return false;
+}
+
+/// Returns whether a plane through the common corner i of a, j of b separates them.
+bool are_apart_at(const Placed& a, int i, const Placed& b, int j) {
+  const Vec3 v = a.x[i];
+  const auto separates = [&](const Vec3& n) {
+    for (int k = 0; k < 8; ++k)
+      if ((k != i && dot(n, a.x[k] - v) >= 0) || (k != j && dot(n, b.x[k] - v) <= 0)) return false;
+    return true;
+  };
+  if (separates(b.centre - a.centre)) return true;
+  std::array<Vec3, 3> e, f;
+  for (int k = 0; k < 3; ++k) e[k] = a.x[kBeside[i][k]] - v, f[k] = b.x[kBeside[j][k]] - v;
+  const Vec3 inner = (1 / b.edge) * (b.centre - v) - (1 / a.edge) * (a.centre - v);
+  if (separates(inner)) return true;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 n = cross(e[(k + 1) % 3], e[k]), m = cross(f[k], f[(k + 1) % 3]);
+    const Vec3 sum = (1 / norm(n)) * n + (1 / norm(m)) * m;
+    const Vec3 tilt = 0.02 * norm(n) / norm(inner) * inner, tilt2 = 0.02 * norm(m) / norm(inner) * inner;
+    if (separates(n + tilt) || separates(m + tilt2) || separates(sum)) return true;
+  }
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      Vec3 n = cross(e[k], f[l]);
+      if (dot(n, inner) < 0) n = -1.0 * n;
+      if (separates(n) || separates(n + 0.02 * norm(n) / norm(inner) * inner)) return true;
+    }
+  return false;
+}
+
+/// Angles around an edge of a hexahedron, 0 at its center.
+struct Wedge {
+  Vec3 origin, x, y;
+  double least = 0, most = 0;  ///< of the other corners
+
+  Wedge(const Corners& at, int i, int j) : origin(at[i]) {
+    const Vec3 along = at[j] - origin, out = centre_of(at) - origin;
+    x = out - (dot(out, along) / dot(along, along)) * along;
+    y = (1 / norm(along)) * cross(along, x);
+    for (int k = 0; k < 8; ++k) {
+      if (k == i || k == j) continue;
+      const double t = angle(at[k]);
+      most = std::max(most, t), least = std::min(least, t);
+    }
+  }
+  double angle(const Vec3& p) const { return std::atan2(dot(p - origin, y), dot(p - origin, x)); }
+  /// Returns whether a point lies beyond the wedge by an angle.
+  bool is_clear(const Vec3& p, double by) const {
+    const double t = angle(p), turned = t < 0 ? t + 2 * std::numbers::pi : t;
+    return turned >= most + by && turned <= 2 * std::numbers::pi + least - by;
+  }
+};
+
+/// Returns whether the hexahedra lie in disjoint wedges around their common edge.
+bool are_apart_around(const Placed& a, const Placed& b, int i, int j) {
+  const Wedge wedge(a.x, i, j);
+  for (int k = 0; k < 8; ++k)
+    if (b.hex[k] != a.hex[i] && b.hex[k] != a.hex[j] && !wedge.is_clear(b.x[k], kLeastWedge)) return false;
+  return true;
+}
+
+bool are_compatible(const Placed& a, const Placed& b) {
+  if (norm(a.centre - b.centre) < kTooNear * std::min(a.edge, b.edge)) return false;
+  unsigned in_a = 0, in_b = 0;
+  int i = -1, j = -1, k2 = -1, l2 = -1, shared = 0;
+  for (int k = 0; k < 8; ++k)
+    for (int l = 0; l < 8; ++l)
+      if (a.hex[k] == b.hex[l]) {
+        in_a |= 1u << k, in_b |= 1u << l;
+        if (shared++ == 0)
+          i = k, j = l;
+        else
+          k2 = k, l2 = l;
+      }
+  if (shared == 0) return are_apart(a, b);
+  if (shared == 1) return are_apart_at(a, i, b, j);
+  if (shared == 2) return is_edge(i, k2) && is_edge(j, l2) && are_apart_around(a, b, i, k2);
+  if (shared != 4) return false;
+  const int s = side_with(in_a), t = side_with(in_b);
+  if (s < 0 || t < 0) return false;
+  const auto f = side_of(a.hex, s), g = side_of(b.hex, t);
+  const auto at = std::ranges::find(g, f[0]) - g.begin();
+  return g[(at + 3) % 4] == f[1] && g[(at + 2) % 4] == f[2];
+}
+
+/// The edges and quads of the skin.
+class SkinParts {
+ public:
+  SkinParts(std::size_t n_points, const std::vector<std::array<int, 4>>& quads)
+      : at_(n_points), quads_(quads) {
+    for (std::size_t q = 0; q < quads.size(); ++q)
+      for (const int v : quads[q]) at_[v].push_back(static_cast<int>(q));
+  }
+  bool on(int v) const { return !at_[v].empty(); }
+  /// Returns 0: the points share no quad; 1: they are joined by a side, 2: by a diagonal only.
+  int join(int a, int b) const {
+    int best = 0;
+    for (const int q : at_[a])
+      for (int k = 0; k < 4; ++k) {
+        if (quads_[q][k] != a) continue;
+        if (quads_[q][(k + 1) % 4] == b || quads_[q][(k + 3) % 4] == b) return 1;
+        if (quads_[q][(k + 2) % 4] == b) best = 2;
+      }
+    return best;
+  }
+  /// Calls visit(quad) for the quads that have both points.
+  template <class Visit>
+  void around(int a, int b, Visit visit) const {
+    for (const int q : at_[a])
+      if (std::ranges::find(quads_[q], b) != quads_[q].end()) visit(quads_[q]);
+  }
+  /// Returns the quad with these vertices; -1: none.
+  int quad(const std::array<int, 4>& side) const {
+    for (const int q : at_[side[0]])
+      if (sorted(quads_[q]) == sorted(side)) return q;
+    return -1;
+  }
+
+ private:
+  std::vector<std::vector<int>> at_;
+  const std::vector<std::array<int, 4>>& quads_;
+};
+
+/// Least distance from the skin of the middle of sides and edges inside that end there, in mean edges.
+constexpr double kOffSkin = 0.15;
+
+/// Returns whether a hexahedron meets the skin only in its vertices, sides and quads.
+bool fits_skin(const Hexahedron& hex, const std::vector<Vec3>& points, const SkinParts& parts,
+               const Skin& skin) {
+  double gap = 0;
+  for (const auto& [a, b] : kHexEdges) gap += kOffSkin / 12 * norm(points[hex[a]] - points[hex[b]]);
+  const auto is_inside = [&](const Vec3& x) { return skin.distance(x, gap) > gap && skin.contains(x); };
+  int n_on = 0;
+  for (const int v : hex) n_on += parts.on(v);
+  if (n_on < 2) return true;
+  for (int a = 0; a < 8; ++a)
+    for (int b = a + 1; b < 8; ++b) {
+      if (!parts.on(hex[a]) || !parts.on(hex[b])) continue;
+      const int join = parts.join(hex[a], hex[b]);
+      if (is_edge(a, b)) {
+        if (join == 2) return false;
+        if (join == 0 && !is_inside(0.5 * (points[hex[a]] + points[hex[b]]))) return false;
+        if (join == 1) {
+          const Wedge wedge(corners_of(points, hex), a, b);
+          bool is_clear = true;
+          parts.around(hex[a], hex[b], [&](const std::array<int, 4>& quad) {
+            if (std::ranges::all_of(quad, [&](int v) { return std::ranges::find(hex, v) != hex.end(); }))
+              return;
+            for (const int v : quad)
+              is_clear &= v == hex[a] || v == hex[b] || wedge.is_clear(points[v], kSkinWedge);
+          });
+          if (!is_clear) return false;
+        }
+      } else if (join == 1) {
+        return false;
+      } else if (join == 2) {
+        bool found = false;
+        for (int s = 0; s < 6; ++s) {
+          const auto side = side_of(hex, s);
+          found |= std::ranges::count(side, hex[a]) + std::ranges::count(side, hex[b]) == 2 &&
+                   parts.quad(side) >= 0;
+        }
+        if (!found) return false;
+      }
+    }
+  for (int s = 0; s < 6; ++s) {
+    const auto side = side_of(hex, s);
+    int on = 0;
+    Vec3 sum{0, 0, 0};
+    for (const int v : side)
+      if (parts.on(v)) ++on, sum = sum + points[v];
+    if (on < 3) continue;
+    const int q = on == 4 ? parts.quad(side) : -1;
+    if (q >= 0 ? false : !is_inside((1.0 / on) * sum)) return false;
+  }
+  return true;
+}
+
+/// Returns the unmatched sides of hexahedra and quads of the skin, with the hexahedron of each (-1: skin).
+std::vector<std::pair<std::array<int, 4>, int>> bounds_of_rest(const std::vector<std::array<int, 4>>& quads,
+                                                               const std::vector<Hexahedron>& hexahedra) {
+  std::vector<std::pair<std::array<int, 4>, int>> sides;
+  for (const auto& q : quads) sides.emplace_back(q, -1);
+  for (std::size_t h = 0; h < hexahedra.size(); ++h)
+    for (int s = 0; s < 6; ++s) sides.emplace_back(side_of(hexahedra[h], s), static_cast<int>(h));
+  std::vector<std::pair<std::array<int, 4>, int>> keys;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    keys.emplace_back(sorted(sides[i].first), static_cast<int>(i));
+  std::ranges::sort(keys);
+  std::vector<int> open;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (i + 1 < keys.size() && keys[i].first == keys[i + 1].first) {
+      ++i;
+      continue;
+    }
+    open.push_back(keys[i].second);
+  }
+  std::ranges::sort(open);
+  std::vector<std::pair<std::array<int, 4>, int>> result;
+  for (const int i : open) result.push_back(sides[i]);
+  return result;
+}
+
+}  // namespace
+
+std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
+                                       const std::vector<std::vector<int>>& beside,
+                                       const std::vector<std::array<int, 4>>& quads, const Skin& skin) {
+  const SkinParts parts(points.size(), quads);
+  std::vector<std::vector<Hexahedron>> found(points.size());
+  parallel_ranges(points.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<int> ab, bc, ca, last;
+    for (std::size_t i = begin; i < end; ++i) {
+      const int v = static_cast<int>(i);
+      const auto common = [&](int a, int b, std::vector<int>& into) {
+        into.clear();
+        std::ranges::set_intersection(beside[a], beside[b], std::back_inserter(into));
+        std::erase_if(into, [&](int w) { return w <= v; });
+      };
+      const auto is_corner = [&](int at, int a, int b, int c) {
+        const Vec3 e = points[a] - points[at], f = points[b] - points[at], g = points[c] - points[at];
+        return dot(e, cross(f, g)) >= kLeastJacobian * norm(e) * norm(f) * norm(g);
+      };
+      const auto& near = beside[v];
+      std::vector<std::pair<double, Hexahedron>> here;
+      for (const int a : near)
+        for (const int b : near)
+          for (const int c : near) {
+            if (a <= v || b <= a || c <= a || b == c) continue;
+            if (!is_corner(v, a, b, c)) continue;
+            common(a, b, ab);
+            if (ab.empty()) continue;
+            common(b, c, bc);
+            if (bc.empty()) continue;
+            common(c, a, ca);
+            for (const int x : ab)
+              for (const int y : bc)
+                for (const int z : ca) {
+                  if (x == c || y == a || z == b || x == y || y == z || z == x) continue;
+                  if (!is_corner(a, x, v, z) || !is_corner(b, v, x, y) || !is_corner(c, y, z, v)) continue;
+                  common(x, y, last);
+                  for (const int w : last) {
+                    if (w == a || w == b || w == c || w == z || !std::ranges::binary_search(beside[w], z))
+                      continue;
+                    const Hexahedron hex = {v, a, x, b, c, z, w, y};
+                    if (const double quality = scaled_jacobian(corners_of(points, hex));
+                        quality >= kLeastJacobian && is_positive(corners_of(points, hex)))
+                      here.emplace_back(-quality, hex);
+                  }
+                }
+          }
+      std::ranges::sort(here);
+      for (const auto& [quality, hex] : here) {
+        if (found[i].size() >= kMostAtVertex) break;
+        if (fits_skin(hex, points, parts, skin)) found[i].push_back(hex);
+      }
+    }
+  });
+  std::vector<Hexahedron> all;
+  for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+std::vector<char> enclosed_points(std::size_t n_points, const std::vector<std::array<int, 4>>& quads,
+                                  const std::vector<Hexahedron>& hexahedra) {
+  std::vector<char> is_enclosed(n_points, 0);
+  for (const Hexahedron& hex : hexahedra)
+    for (const int v : hex) is_enclosed[v] = 1;
+  for (const auto& [side, hex] : bounds_of_rest(quads, hexahedra))
+    for (const int v : side) is_enclosed[v] = 0;
+  return is_enclosed;
+}
+
+std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points,
+                                         const std::vector<std::array<int, 4>>& quads,
+                                         const std::vector<Hexahedron>& candidates) {
+  const int n = static_cast<int>(candidates.size());
+  std::vector<Placed> all;
+  std::vector<Box<Vec3>> boxes;
+  for (const Hexahedron& hex : candidates) {
+    all.push_back(placed(points, hex));
+    boxes.push_back(Box<Vec3>::around(std::span(all.back().x)).grown(kLeastGap * all.back().edge));
+  }
+  const BoxTree<Vec3> tree(boxes);
+  std::vector<std::vector<int>> rivals(n);
+  parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      tree.overlapping(boxes[i], [&](int j) {
+        if (static_cast<int>(i) < j && boxes[i].overlaps(boxes[j]) && !are_compatible(all[i], all[j]))
+          rivals[i].push_back(j);
+      });
+  });
+  for (int i = 0; i < n; ++i)
+    for (const int j : std::vector(rivals[i]))
+      if (j > i) rivals[j].push_back(i);
+  for (auto& list : rivals) sort_unique(list);
+
+  // Sides by vertices; a chosen side makes the candidates on its other side better.
+  std::map<std::array<int, 4>, std::vector<int>> by_side;
+  for (int i = 0; i < n; ++i)
+    for (int s = 0; s < 6; ++s) by_side[sorted(side_of(candidates[i], s))].push_back(i);
+  std::vector<double> worth(n), weight(n);
+  for (int i = 0; i < n; ++i) weight[i] = 1 + 0.5 * scaled_jacobian(corners_of(points, candidates[i]));
+  for (int i = 0; i < n; ++i) worth[i] = weight[i];
+  for (const auto& q : quads)
+    if (const auto found = by_side.find(sorted(q)); found != by_side.end())
+      for (const int i : found->second) worth[i] += 1;
+  enum State : char { kOpen, kChosen, kLost };
+  std::vector<State> state(n, kOpen);
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry> queue;
+  for (int i = 0; i < n; ++i) queue.push({worth[i], -i});
+  while (!queue.empty()) {
+    const auto [value, minus] = queue.top();
+    queue.pop();
+    const int i = -minus;
+    if (state[i] != kOpen || value != worth[i]) continue;
+    state[i] = kChosen;
+    for (const int j : rivals[i]) state[j] = kLost;
+    for (int s = 0; s < 6; ++s)
+      for (const int j : by_side[sorted(side_of(candidates[i], s))])
+        if (state[j] == kOpen) worth[j] += 1, queue.push({worth[j], -j});
+  }
+
+  // One out, others in: exchanges while the weight grows.
+  std::vector<int> against(n, 0);
+  const auto set = [&](int i, State to) {
+    const int change = to == kChosen ? 1 : -1;
+    state[i] = to;
+    for (const int j : rivals[i]) against[j] += change;
+  };
+  for (int i = 0; i < n; ++i)
+    if (state[i] == kChosen) set(i, kChosen);
+  bool changed = true;
+  for (int round = 0; changed && round < kExchangeRounds; ++round) {
+    changed = false;
+    for (int i = 0; i < n; ++i) {
+      if (state[i] != kChosen) continue;
+      std::vector<int> in;
+      double sum = 0;
+      for (const int j : rivals[i])
+        if (against[j] == 1 &&
+            std::ranges::none_of(in, [&](int k) { return std::ranges::binary_search(rivals[j], k); }))
+          in.push_back(j), sum += weight[j];
+      if (sum <= weight[i] + 1e-9) continue;
+      set(i, kLost);
+      for (const int j : in) set(j, kChosen);
+      changed = true;
+    }
+    for (int i = 0; i < n; ++i)
+      if (state[i] != kChosen && against[i] == 0) set(i, kChosen), changed = true;
+  }
+  std::vector<Hexahedron> chosen;
+  for (int i = 0; i < n; ++i)
+    if (state[i] == kChosen) chosen.push_back(candidates[i]);
+  return chosen;
+}
+
+void separate_sides(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
+                    std::vector<Hexahedron>& hexahedra) {
+  for (;;) {
+    const auto sides = bounds_of_rest(quads, hexahedra);
+    std::vector<std::array<int, 3>> triangles;
+    double length = 0;
+    for (const auto& [q, hex] : sides) {
+      for (int k = 0; k < 4; ++k) triangles.push_back({q[k], q[(k + 1) % 4], q[(k + 2) % 4]});
+      length += norm(points[q[1]] - points[q[0]]) / static_cast<double>(sides.size());
+    }
+    const auto may_cross = [&](int a, int b) {
+      return a / 4 == b / 4 || (sides[a / 4].second < 0 && sides[b / 4].second < 0);
+    };
+    std::vector<int> worse;
+    for (const Crossing& c : find_crossings(points, triangles, may_cross, 1e-3 * length)) {
+      const int a = sides[c.first / 4].second, b = sides[c.second / 4].second;
+      worse.push_back(a < 0 ? b
+                      : b < 0 || scaled_jacobian(corners_of(points, hexahedra[a])) <
+                                     scaled_jacobian(corners_of(points, hexahedra[b]))
+                          ? a
+                          : b);
+    }
+    if (worse.empty()) return;
+    sort_unique(worse);
+    for (const int h : worse) hexahedra[h][0] = -1;
+    std::erase_if(hexahedra, [](const Hexahedron& h) { return h[0] < 0; });
+  }
+}
+
+}  // namespace delquad
