@@ -74,18 +74,20 @@ int volume_command(const VolumeArguments& arguments) {
 
 void add_volume(CLI::App& app, Commands& commands) {
   const auto [volume, arguments] = add_command(
-      app, commands, "volume", "Fill a closed model: pyramids and tetrahedra on quads", volume_command, true);
+      app, commands, "volume", "Fill a closed model: hexahedra, pyramids, tetrahedra", volume_command, true);
   CLI::Option* model = add_model(volume, arguments);
   volume->add_option("--from", arguments.from, "fill these closed quads instead, which stay as they are")
       ->excludes(model);
   volume->add_option("-o,--output", arguments.output, "cells to write ('delquad formats' lists files)")
       ->required();
   static const std::map<std::string, VolumeCells> kinds = {
-      {"pyramids-and-tets", VolumeCells::kPyramidsAndTets}, {"tets", VolumeCells::kTets}};
+      {"hex-dominant", VolumeCells::kHexDominant},
+      {"pyramids-and-tets", VolumeCells::kPyramidsAndTets},
+      {"tets", VolumeCells::kTets}};
   volume
       ->add_option("--cells", arguments.volume.cells,
-                   "'pyramids-and-tets' (the default) keep the quads; 'tets' split each into two triangles")
-      ->transform(CLI::CheckedTransformer(kinds).description("pyramids-and-tets or tets"));
+                   "'hex-dominant' (the default) and 'pyramids-and-tets' keep the quads; 'tets' split each")
+      ->transform(CLI::CheckedTransformer(kinds).description("hex-dominant, pyramids-and-tets or tets"));
   volume->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
   volume->add_option("--json", arguments.json, "record to write");
   add_max_elements(*volume, arguments.max_elements, "refuse to make more cells than this");

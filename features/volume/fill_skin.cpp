@@ -13,6 +13,7 @@
 #include "features/volume/fill_around.h"
 #include "features/volume/fill_void.h"
 #include "features/volume/find_bodies.h"
+#include "features/volume/place_hexahedra.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
 #include "metrics/cells.h"
@@ -106,6 +107,7 @@ class SkinFiller {
       else
         part.quads.push_back(quad);
     }
+    if (options_.cells == VolumeCells::kHexDominant) place_hexahedra(part);
     lost = fill_around(part);
     for (int& face : lost) face /= tets_alone() ? 2 : 1;
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());

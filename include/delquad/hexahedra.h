@@ -80,12 +80,13 @@ CellMeasures measure(const Mesh& mesh);
 
 /// Kinds of cells in a volume.
 enum class VolumeCells {
+  kHexDominant,      ///< hexahedra as far as they go, pyramids and tetrahedra around them
   kPyramidsAndTets,  ///< a pyramid on each quad, tetrahedra between
   kTets,             ///< each quad is split into two triangles
 };
 
 struct VolumeOptions {
-  VolumeCells cells = VolumeCells::kPyramidsAndTets;
+  VolumeCells cells = VolumeCells::kHexDominant;
   long long max_elements = 50'000'000;
 };
 
