@@ -340,10 +340,11 @@ TEST(MeshFormats, AreToldByExtension) {
   }
   write_mesh(folder / "a.vtu", quad_grid(3, 3));
   EXPECT_TRUE(holds(read_text(folder / "a.vtu"), "Name=\"eta\""));
-  expect_input_error([&] { write_mesh(folder / "a.dxf", quad_grid(1, 1)); },
-                     {"a.dxf", "'.dxf'",
-                      ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .mfem, .su2, .bdf, .unv, "
-                      ".k, .2dm, .gr3, .nc, .ugrid, .ism, .abq, .re2, .specfem, .foam, .off, .stl, .ply or .svg"});
+  expect_input_error(
+      [&] { write_mesh(folder / "a.dxf", quad_grid(1, 1)); },
+      {"a.dxf", "'.dxf'",
+       ".msh, .vtu, .obj, .inp, .mesh, .vtk, .e, .cgns, .med, .xdmf, .mfem, .su2, .bdf, .unv, "
+       ".k, .2dm, .gr3, .nc, .ugrid, .ism, .abq, .re2, .specfem, .foam, .off, .stl, .ply or .svg"});
   expect_input_error([&] { write_mesh(folder / "a.msh.gz", quad_grid(1, 1)); }, {"a.msh.gz", "'.gz'"});
   expect_input_error(
       [&] {
