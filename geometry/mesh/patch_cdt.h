@@ -45,7 +45,7 @@ std::vector<typename Cdt::Vertex_handle> insert(Cdt& cdt, const PatchBoundary& b
     const Vec2 a = points[i], b = points[j];
     typename Cdt::Face_handle face;
     int side = 0;
-    if (cdt.is_edge(vertex[i], vertex[j], face, side) && face->is_constrained(side) &&
+    if (cdt.dimension() == 2 && cdt.is_edge(vertex[i], vertex[j], face, side) && face->is_constrained(side) &&
         std::ranges::find(boundary.edges, std::array{j, i}) != boundary.edges.end())
       continue;  // the other side of a slit
     try {

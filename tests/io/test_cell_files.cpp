@@ -193,12 +193,14 @@ TEST(CellFiles, OfUgridHaveItsOrders) {
 }
 
 TEST(CellFiles, AreWrittenInEveryFormatOfCells) {
-  const Folder folder;
   for (const MeshFormat& format : mesh_formats())
     if (format.has_cells && format.package.empty()) {
-      const fs::path file = folder / ("a" + format.extensions[0]);
-      write_mesh(file, mixed_solid(format.has_pyramids));
-      EXPECT_GT(fs::file_size(file), 500u) << file;
+      const Folder own;  // OpenFOAM's lists lie beside the file
+      write_mesh(own / ("a" + format.extensions[0]), mixed_solid(format.has_pyramids));
+      std::uintmax_t bytes = 0;
+      for (const auto& file : fs::recursive_directory_iterator(own.path()))
+        bytes += file.is_regular_file() ? file.file_size() : 0;
+      EXPECT_GT(bytes, 500u) << format.extensions[0];
     }
 }
 

@@ -5,11 +5,13 @@
 namespace delquad::testing_support {
 namespace {
 
-constexpr VolumeOptions kTets{VolumeCells::kTets};
+constexpr VolumeOptions kTets{VolumeCells::kTets}, kPyramids{VolumeCells::kPyramidsAndTets};
 
-/// Fills a skin by both kinds of cells; `volume`: the expected one.
+/// Fills a skin by all kinds of cells; `volume`: the expected one.
 void expect_filled(const Mesh& skin, double volume, std::size_t bodies = 1) {
-  const Mesh mesh = fill_skin(skin);
+  expect_sound_cells(fill_skin(skin), volume);
+  const Mesh mesh = fill_skin(skin, kPyramids);
+  EXPECT_TRUE(mesh.hexahedra.empty());
   expect_sound_cells(mesh, volume);
   EXPECT_EQ(mesh.volumes.size(), bodies);
   ASSERT_EQ(mesh.quads.size(), skin.quads.size());
@@ -60,7 +62,7 @@ TEST(FillSkin, LeavesCavitiesOut) {
 TEST(FillSkin, FillsBodiesThatShareQuads) {
   const Mesh skin = skin_of_labels(4, [](int i, int, int k) { return k == 3 && i > 0 ? 0 : i < 2 ? 1 : 2; });
   expect_filled(skin, 52, 2);
-  const Mesh mesh = fill_skin(skin);
+  const Mesh mesh = fill_skin(skin, kPyramids);
   EXPECT_EQ(mesh.volumes[mesh.tet_volume[0]].names.size(), 1u);
   EXPECT_NE(mesh.volumes[0].names, mesh.volumes[1].names);
   expect_filled(skin_of_labels(3, [](int i, int j, int k) { return i * j * k == 1 ? 2 : 1; }), 27, 2);
@@ -82,7 +84,7 @@ TEST(FillSkin, RefusesOtherSkins) {
   const Mesh cube = cube_surface(3, [](const Vec3& p) { return p; });
   refused(Mesh{}, {"no quads"});
   refused(cube, {"54 quads", "--max-elements"}, {.max_elements = 50});
-  refused(cube, {"cells are needed", "--max-elements"}, {.max_elements = 60});
+  refused(cube, {"cells are needed", "--max-elements"}, {VolumeCells::kTets, 60});
   Mesh open = cube;
   open.quads.pop_back(), open.quad_region.pop_back();
   refused(open, {"open at the edge from (", "closed skin"});

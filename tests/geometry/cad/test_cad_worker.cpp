@@ -70,6 +70,7 @@ TEST_F(CadWorker, BytesGiveWhatTheirFileGives) {
 /// Reads a model with kept models in a folder, and returns whether the worker triangulated it.
 bool is_triangulated(const std::filesystem::path& file, const std::filesystem::path& cache,
                      const CadOptions& options = {}) {
+  const SurfaceModel anew = read_cad(file, options);
   Activities activities(1);
   bool triangulated = false;
   activities.on_stage = [&](const char* name) { triangulated |= name == std::string(cad::kTriangulation); };
@@ -77,7 +78,6 @@ bool is_triangulated(const std::filesystem::path& file, const std::filesystem::p
   set_cad_cache(cache);
   const SurfaceModel model = read_cad(file, options);
   set_cad_cache({});
-  const SurfaceModel anew = read_cad(file, options);
   EXPECT_EQ(model.fine.points, anew.fine.points);
   EXPECT_EQ(model.fine.triangles, anew.fine.triangles);
   return triangulated;
