@@ -235,7 +235,8 @@ void check_cell_format(const std::filesystem::path& path, const MshOptions& opti
   check_mesh_format(path, options, 1, false, true);
   if (!format->has_pyramids && !mesh.pyramids.empty())
     refuse(
-        "{}: '{}' has no pyramids, and there are {} (the first at {}): expected {}, or a mesh without them",
+        "{}: '{}' has no pyramids, and there are {} (the first at {}): expected {}, or cells without them "
+        "(volume --cells tets)",
         path.string(), kind, mesh.pyramids.size(), show_point(mesh.points[mesh.pyramids[0][4]]),
         extensions_of([](const MeshFormat& f) { return f.has_cells && f.has_pyramids; }));
   if (options.element.empty()) return;

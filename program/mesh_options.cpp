@@ -192,9 +192,9 @@ void add_mesh_output(CLI::App& mesh, MeshArguments& arguments) {
   mesh.add_flag("--strict", arguments.strict, "exit with 5 if elements fail the criteria, and write no mesh");
   mesh.add_flag("--failing-sets", arguments.failing_sets,
                 "put elements beyond the criteria in sets 'failing', 'failing_min_length', ... of the mesh");
-  mesh.add_flag(
-      "--try-cures", arguments.try_cures,
-      "if elements fail the criteria, mesh again with each proposed option, and tell how many are left");
+  mesh.add_flag("--try-cures", arguments.try_cures,
+                "if elements fail the criteria, mesh again with the proposed --ignore-below, and tell how "
+                "many are left");
 }
 
 void set_criteria(const MeshArguments& arguments, Criteria& criteria) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "base/context.h"
@@ -10,6 +11,7 @@
 #include "delquad/error.h"
 #include "delquad/hexahedra.h"
 #include "experiments/console/progress.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "io/cases/case_file.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
@@ -37,6 +39,20 @@ Mesh mesh_skin(const VolumeArguments& arguments, Progress& progress) {
   return std::move(result.mesh);
 }
 
+/// Cells below this scaled Jacobian slow solvers down, or stop them.
+constexpr double kPoorJacobian = 0.02;
+
+void warn_of_poor_cells(const Mesh& cells, const CellMeasures& measures, Progress& progress) {
+  const auto n = std::ranges::count_if(measures.jacobian, [](double j) { return j < kPoorJacobian; });
+  if (n == 0) return;
+  const std::size_t worst = std::ranges::min_element(measures.jacobian) - measures.jacobian.begin();
+  progress.message(fmt::format(
+      "warning: the scaled Jacobian is below {} in {}, the least {:.2g} at {}: flat or long quads "
+      "of the skin allow no better cells: try another size, or no layers there",
+      kPoorJacobian, counted(n, "cell"), measures.jacobian[worst],
+      show_point(cells.points[solid_at(cells, worst).nodes[0]])));
+}
+
 int volume_command(const VolumeArguments& arguments) {
   const Stopwatch command;
   const RunScope run({.threads = arguments.threads});
@@ -61,6 +77,7 @@ int volume_command(const VolumeArguments& arguments) {
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + lost);
   for (const std::string& note : notes) progress.message("note: " + note);
   const CellMeasures measures = measure(cells);
+  warn_of_poor_cells(cells, measures, progress);
   write_mesh(arguments.output, cells, arguments.msh);
   if (!arguments.json.empty()) write_text_file(arguments.json, cells_record(name, cells, measures));
   progress.finish();
@@ -75,9 +92,12 @@ int volume_command(const VolumeArguments& arguments) {
 void add_volume(CLI::App& app, Commands& commands) {
   const auto [volume, arguments] = add_command(
       app, commands, "volume", "Fill a closed model: hexahedra, pyramids, tetrahedra", volume_command, true);
-  CLI::Option* model = add_model(volume, arguments);
-  volume->add_option("--from", arguments.from, "fill these closed quads instead, which stay as they are")
-      ->excludes(model);
+  add_model(volume, arguments);
+  CLI::Option* from =
+      volume->add_option("--from", arguments.from, "fill these closed quads instead, which stay as they are");
+  for (CLI::Option* of_model :
+       volume->get_options([&](CLI::Option* o) { return o != from && !o->check_lname("help"); }))
+    from->excludes(of_model);
   volume->add_option("-o,--output", arguments.output, "cells to write ('delquad formats' lists files)")
       ->required();
   static const std::map<std::string, VolumeCells> kinds = {

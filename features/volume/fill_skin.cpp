@@ -55,8 +55,11 @@ class SkinFiller {
     for (const Quad& q : skin.quads) split_.push_back(by_better_diagonal(skin, q));
     Vec3 where;
     if (const std::vector<int> faces = untangle(skin.points, split_, {}, &where); !faces.empty())
-      refuse("the skin crosses itself at {} in {} quads: smaller sizes there keep thin parts open",
-             show_point(where), faces.size());
+      refuse(
+          "the skin crosses itself at {} in {} quads: --glue joins bodies that touch, and smaller sizes keep "
+          "thin "
+          "parts open",
+          show_point(where), faces.size());
   }
 
   Mesh fill() {

@@ -479,15 +479,16 @@ std::string FailingElements::text_of(std::size_t limit) const {
 }
 
 std::vector<Cure> FailingElements::cures_of(FailingCause cause) const {
-  constexpr double kAbove = 1.05;  // part of the length that must be exceeded
+  constexpr double kAbove = 1.05;   // part of the length that must be exceeded
+  constexpr double kFinest = 0.25;  // of the wanted size; smaller sizes chase the tips of wedges
   if (!judged.prepared || !judged.prepared->surface || is_given(*judged.prepared)) return {};
   Cure leave_out{kCauseNames[cause], "surface.ignore_below"}, refine{kCauseNames[cause], kSizeKey, kAny};
   for (const FailingElement& element : elements) {
     if (element.cause != cause) continue;
     if (element.ignored_below > 0)
       ++leave_out.count, leave_out.value = std::max(leave_out.value, kAbove * element.ignored_below);
-    else if ((cause == kAtBend || cause == kAtGap || cause == kAtFineCurve) && element.what > 0 &&
-             allows_size(criteria, element.what))
+    else if ((cause == kAtBend || cause == kAtGap || cause == kAtFineCurve) &&
+             element.what > kFinest * element.size && allows_size(criteria, element.what))
       ++refine.count, refine.value = std::min(refine.value, element.what);
   }
   std::vector<Cure> cures{std::move(leave_out), std::move(refine)};

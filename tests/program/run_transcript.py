@@ -145,6 +145,7 @@ def main():
     given = parser.parse_args()
     os.environ["SOURCE"] = str(pathlib.Path(__file__).parents[2])
     os.environ["PATH"] = f"{given.build.resolve()}:{os.environ['PATH']}"
+    os.environ["XDG_CACHE_HOME"] = "/dev/null"
     wrong = 0
     with tempfile.TemporaryDirectory() as home:
         functions = pathlib.Path(home) / "functions.sh"
