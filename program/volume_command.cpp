@@ -46,11 +46,11 @@ void warn_of_poor_cells(const Mesh& cells, const CellMeasures& measures, Progres
   const auto n = std::ranges::count_if(measures.jacobian, [](double j) { return j < kPoorJacobian; });
   if (n == 0) return;
   const std::size_t worst = std::ranges::min_element(measures.jacobian) - measures.jacobian.begin();
-  progress.message(fmt::format(
-      "warning: the scaled Jacobian is below {} in {}, the least {:.2g} at {}: flat or long quads "
-      "of the skin allow no better cells: try another size, or no layers there",
-      kPoorJacobian, counted(n, "cell"), measures.jacobian[worst],
-      show_point(cells.points[solid_at(cells, worst).nodes[0]])));
+  progress.message(
+      fmt::format("warning: the scaled Jacobian is below {} in {}, the least {:.2g} at {}: the quads there "
+                  "are flat or long: try another size",
+                  kPoorJacobian, counted(n, "cell"), measures.jacobian[worst],
+                  show_point(cells.points[solid_at(cells, worst).nodes[0]])));
 }
 
 int volume_command(const VolumeArguments& arguments) {
