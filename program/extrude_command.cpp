@@ -178,7 +178,8 @@ SweepLayers layers_of(const ExtrudeArguments& arguments) {
     const std::size_t at = text.rfind('=');
     const auto height = at == std::string::npos ? std::nullopt : as_number(text.substr(at + 1));
     if (!height) refuse("--height '{}': expected NAME=LENGTH, such as boss=12.5", text);
-    layers.heights[text.substr(0, at)] = *height;
+    if (!layers.heights.emplace(text.substr(0, at), *height).second)
+      refuse("--height '{}': this region has a height already: expected one for each", text);
   }
   return layers;
 }
