@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures volume meshes of closed example models, and of CAD files that are named, at two numbers of quads: share of hexahedra, scaled Jacobians, processor time."""
+"""Measures volume meshes of closed examples, and of named CAD files, at two numbers of quads: shares of hexahedra, scaled Jacobians, processor time."""
 
 import argparse
 import json
