@@ -51,8 +51,10 @@ void keep_within_limit(const fs::path& folder) {
   std::uintmax_t sum = 0;
   std::error_code gone;
   for (const fs::directory_entry& file : fs::directory_iterator(folder, gone)) {
-    const Kept& kept = all.emplace_back(file.last_write_time(gone), file.path(), file.file_size(gone));
-    sum += gone ? 0 : kept.size;
+    const std::uintmax_t size = file.file_size(gone);
+    if (gone) continue;  // a folder, or removed by another program
+    all.push_back({file.last_write_time(gone), file.path(), size});
+    sum += size;
   }
   std::ranges::sort(all, {}, &Kept::used);
   for (const Kept& kept : all) {
@@ -80,10 +82,8 @@ std::string kept_or_asked(const fs::path& folder, const std::string& question,
   std::ofstream out(unfinished, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
-  if (out)
-    fs::rename(unfinished, file, ignored);
-  else
-    fs::remove(unfinished, ignored);
+  if (out) fs::rename(unfinished, file, ignored);
+  fs::remove(unfinished, ignored);  // still there if the disk is full, or a folder has the name
   keep_within_limit(folder);
   return answer;
 }

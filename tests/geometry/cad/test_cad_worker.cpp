@@ -97,6 +97,18 @@ TEST_F(CadWorker, IsAskedOnceForEachContent) {
     std::filesystem::resize_file(kept, kept.file_size() - 20);
   EXPECT_TRUE(is_asked());
   EXPECT_FALSE(is_asked());
+  const auto files = [&] {
+    std::vector<std::filesystem::path> all;
+    for (const auto& kept : std::filesystem::directory_iterator(cache)) all.push_back(kept.path());
+    return all;
+  };
+  const auto before = files();
+  for (const auto& kept : before) {
+    std::filesystem::remove(kept);
+    std::filesystem::create_directory(kept);
+  }
+  EXPECT_TRUE(is_asked());
+  EXPECT_EQ(files().size(), before.size());
   EXPECT_TRUE(is_triangulated(box_, "/dev/null/cache"));
   EXPECT_TRUE(is_triangulated(box_, "/dev/null/cache"));
 }
