@@ -12,22 +12,17 @@
 #include <OSD_Parallel.hxx>
 #include <OSD_ThreadPool.hxx>
 #include <Precision.hxx>
-#include <Standard.hxx>
 #include <Standard_Failure.hxx>
-#include <Standard_Version.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <numeric>
-#include <system_error>
 
 #include "base/activity.h"
 #include "base/context.h"
 #include "base/parallel.h"
-#include "base/system.h"
 #include "base/utf8.h"
 #include "base/worker_process.h"
 #include "delquad/error.h"
@@ -217,16 +212,6 @@ void answer(const CadRequest& request, int socket) {
 }
 
 }  // namespace
-
-/// Takes the version from the file name "libTKernel.so.7.6.3", since the loaded library may differ from the
-/// headers.
-std::string kernel_version() {
-  std::error_code unknown;
-  const std::string file = std::filesystem::canonical(file_of(&Standard::Purge), unknown).filename().string();
-  const std::string before = ".so.";
-  const auto at = file.find(before);
-  return at == std::string::npos ? OCC_VERSION_COMPLETE : file.substr(at + before.size());
-}
 
 void run_worker(int socket, int parent) {
   delquad::run_worker(

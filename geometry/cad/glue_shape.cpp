@@ -109,16 +109,6 @@ std::vector<std::string> cut_faces(BOPAlgo_Builder& builder, const CadShape& cad
 
 }  // namespace
 
-TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape) {
-  TopTools_ListOfShape bodies;
-  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) bodies.Append(solid.Current());
-  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
-    bodies.Append(shell.Current());
-  for (TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next())
-    bodies.Append(face.Current());
-  return bodies;
-}
-
 void glue_shape(CadShape& cad, double tolerance) {
   constexpr std::size_t kMostNamed = 20;
   const TopTools_ListOfShape bodies = glued_parts(cad.shape);

@@ -4,6 +4,7 @@
 #include <TopTools_ListOfShape.hxx>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "delquad/model.h"
@@ -57,5 +58,8 @@ CadShape prepare_shape(const CadModel& model, const CadOptions& options);
 
 /// Returns the same for a shape in memory.
 CadShape prepare_shape(const CadShape& shape, const CadOptions& options);
+
+/// Returns the model of a prepared shape; `source` names it in messages. Throws InputError as read_cad().
+SurfaceModel model_of(const std::string& source, CadShape prepared, const CadOptions& options);
 
 }  // namespace delquad::cad

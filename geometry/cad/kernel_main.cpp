@@ -2,6 +2,5 @@
 #include "geometry/cad/kernel.h"
 
 /// The symbol that load_kernel.cpp looks for.
-extern "C" __attribute__((visibility("default"))) const delquad::cad::Kernel delquad_kernel = {
-    delquad::cad::read_by_kernel, delquad::cad::read_example_by_kernel,
-    delquad::cad::write_example_by_kernel};
+extern "C" __attribute__((visibility("default")))
+const delquad::cad::Kernel delquad_kernel = {delquad::cad::read_by_kernel};

@@ -10,15 +10,23 @@ namespace delquad {
 
 namespace {
 
-/// Throws InputError with `refusal` if the program was built without OpenCASCADE.
-const cad::Kernel& kernel([[maybe_unused]] const std::string& refusal) {
+/// Returns the functions of a library. Throws InputError with `refusal` if the program was built without
+/// OpenCASCADE.
+template <class Functions>
+const Functions& load([[maybe_unused]] const char* library, [[maybe_unused]] const char* symbol,
+                      [[maybe_unused]] const std::string& refusal) {
 #ifdef DELQUAD_HAS_CAD
-  static const auto* loaded =
-      static_cast<const cad::Kernel*>(symbol_of_library(cad::kKernelLibrary, "delquad_kernel"));
+  static const auto* loaded = static_cast<const Functions*>(symbol_of_library(library, symbol));
   return *loaded;
 #else
   throw InputError(refusal);
 #endif
+}
+
+const cad::ExampleKernel& examples(const std::string& name) {
+  check_example(name);
+  return load<cad::ExampleKernel>(cad::kExamplesLibrary, "delquad_examples",
+                                  "built without OpenCASCADE: cannot make the example '" + name + "'");
 }
 
 }  // namespace
@@ -30,7 +38,8 @@ std::filesystem::path cad_library() {
 }
 
 SurfaceModel read_cad(const CadModel& model, const CadOptions& options) {
-  return kernel(model.file.string() + ": built without OpenCASCADE: cannot read STEP or BREP")
+  return load<cad::Kernel>(cad::kKernelLibrary, "delquad_kernel",
+                           model.file.string() + ": built without OpenCASCADE: cannot read STEP or BREP")
       .read_cad(model, options);
 }
 
@@ -39,15 +48,11 @@ SurfaceModel read_cad(const std::filesystem::path& path, const CadOptions& optio
 }
 
 SurfaceModel read_example(const std::string& name, const CadOptions& options) {
-  check_example(name);
-  return kernel("built without OpenCASCADE: cannot make the example '" + name + "'")
-      .read_example(name, options);
+  return examples(name).read_example(name, options);
 }
 
 void write_example(const std::string& name, CadFormat format, std::ostream& out) {
-  check_example(name);
-  kernel("built without OpenCASCADE: cannot make the example '" + name + "'")
-      .write_example(name, format, out);
+  examples(name).write_example(name, format, out);
 }
 
 }  // namespace delquad

@@ -9,26 +9,38 @@ elseif(DELQUAD_CAD STREQUAL "AUTO")
 endif()
 
 if(OpenCASCADE_FOUND AND TARGET TKSTEP AND NOT DELQUAD_CAD STREQUAL "OFF")
-  # The kernel: a library that the program loads when it needs it, and what the helper program that reads CAD takes of it.
+  # Loading all of OpenCASCADE takes as long as meshing a simple part. So models, files (in the helper program) and examples are apart.
   target_compile_definitions(delquad_geometry_cad PRIVATE DELQUAD_HAS_CAD)
-  file(GLOB sources CONFIGURE_DEPENDS geometry/cad/*.cpp geometry/cad/examples/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "(_main|load_kernel|find_worker|example_models)\\.cpp$")
-  add_library(delquad_cad_kernel STATIC ${sources})
-  target_include_directories(delquad_cad_kernel SYSTEM PUBLIC ${OpenCASCADE_INCLUDE_DIR})
-  target_link_libraries(delquad_cad_kernel PRIVATE delquad_flags
-    PUBLIC fmt::fmt Threads::Threads TKIGES TKSTEP TKSTEPBase TKXSBase TKMesh TKOffset TKFillet TKBO TKPrim TKShHealing
-           TKTopAlgo TKGeomAlgo TKGeomBase TKBRep TKG3d TKG2d TKMath TKernel)
-  delquad_common_headers(delquad_cad_kernel OFF)
+  file(GLOB of_files CONFIGURE_DEPENDS geometry/cad/*.cpp geometry/cad/examples/*.cpp)
+  list(FILTER of_files EXCLUDE REGEX "(_main|load_kernel|find_worker|example_models)\\.cpp$")
+  set(of_model ${of_files})
+  list(FILTER of_model INCLUDE REGEX
+       "/(agree_faces|cad_request|kept_shapes|loose_joints|prepare_shape|read_cad|repair_face|shape_bytes|shape_projector|split_duplicate_sides|tessellate|weld_faces)\\.cpp$")
+  set(of_examples ${of_files})
+  list(FILTER of_examples INCLUDE REGEX "(/examples/|write_example)")
+  list(REMOVE_ITEM of_files ${of_model} ${of_examples})
+  foreach(part model files examples)
+    add_library(delquad_cad_${part} STATIC ${of_${part}})
+    target_include_directories(delquad_cad_${part} SYSTEM PUBLIC ${OpenCASCADE_INCLUDE_DIR})
+    target_link_libraries(delquad_cad_${part} PRIVATE delquad_flags
+      PUBLIC fmt::fmt Threads::Threads TKIGES TKSTEP TKSTEPBase TKXSBase TKMesh TKOffset TKFillet TKBO TKPrim TKShHealing
+             TKTopAlgo TKGeomAlgo TKGeomBase TKBRep TKG3d TKG2d TKMath TKernel)
+    target_link_options(delquad_cad_${part} PUBLIC LINKER:--as-needed)
+    delquad_common_headers(delquad_cad_${part} OFF)
+  endforeach()
+  target_link_libraries(delquad_cad_files PUBLIC delquad_cad_model)
+  target_link_libraries(delquad_cad_examples PUBLIC delquad_cad_model)
   add_library(delquad_kernel MODULE geometry/cad/kernel_main.cpp)
-  target_link_libraries(delquad_kernel PRIVATE delquad_flags delquad_cad_kernel delquad_library)
+  add_library(delquad_examples MODULE geometry/cad/examples_main.cpp)
+  target_link_libraries(delquad_kernel PRIVATE delquad_flags delquad_cad_model delquad_library)
+  target_link_libraries(delquad_examples PRIVATE delquad_flags delquad_cad_examples delquad_library)
   set_target_properties(delquad_kernel PROPERTIES OUTPUT_NAME delquad-kernel)
+  set_target_properties(delquad_examples PROPERTIES OUTPUT_NAME delquad-examples)
   add_executable(delquad_cad geometry/cad/worker_main.cpp)
-  # Loading all of OpenCASCADE takes 40 ms, the part that reads files 27 ms.
-  target_link_options(delquad_cad PRIVATE LINKER:--as-needed)
-  target_link_libraries(delquad_cad PRIVATE delquad_flags delquad_cad_kernel delquad_geometry_cad delquad_base delquad_geometry_mesh delquad_geometry_planar
+  target_link_libraries(delquad_cad PRIVATE delquad_flags delquad_cad_files delquad_geometry_cad delquad_base delquad_geometry_mesh delquad_geometry_planar
                         delquad_geometry_surface)
   set_target_properties(delquad_cad PROPERTIES OUTPUT_NAME delquad-cad RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
-  set_property(GLOBAL APPEND PROPERTY DELQUAD_LOADED delquad_kernel delquad_cad)
+  set_property(GLOBAL APPEND PROPERTY DELQUAD_LOADED delquad_kernel delquad_examples delquad_cad)
   set(DELQUAD_HAS_CAD ON PARENT_SCOPE)
   set(DELQUAD_OCCT_VERSION ${OpenCASCADE_VERSION} PARENT_SCOPE)
 else()

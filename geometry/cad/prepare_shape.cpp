@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <Standard.hxx>
+#include <Standard_Version.hxx>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -12,6 +15,7 @@
 
 #include "base/activity.h"
 #include "base/parallel.h"
+#include "base/system.h"
 #include "base/text.h"
 #include "base/worker_process.h"
 #include "delquad/error.h"
@@ -105,6 +109,16 @@ unsigned seconds_for(std::uintmax_t bytes) {
 }
 
 }  // namespace
+
+/// Takes the version from the file name "libTKernel.so.7.6.3", since the loaded library may differ from the
+/// headers.
+std::string kernel_version() {
+  std::error_code unknown;
+  const std::string file = std::filesystem::canonical(file_of(&Standard::Purge), unknown).filename().string();
+  const std::string before = ".so.";
+  const auto at = file.find(before);
+  return at == std::string::npos ? OCC_VERSION_COMPLETE : file.substr(at + before.size());
+}
 
 CadShape prepare_shape(const CadModel& model, const CadOptions& options) {
   using Source = CadRequest::Source;

@@ -15,7 +15,6 @@
 #include "delquad/error.h"
 #include "geometry/cad/agree_faces.h"
 #include "geometry/cad/cad_shape.h"
-#include "geometry/cad/examples/shapes.h"
 #include "geometry/cad/heal_shape.h"
 #include "geometry/cad/kernel.h"
 #include "geometry/cad/loose_joints.h"
@@ -207,7 +206,19 @@ void orient(SurfaceModel& model, const std::vector<std::vector<int>>& groups) {
   throw InputError(text);
 }
 
-SurfaceModel make_model(const std::string& source, CadShape cad, const CadOptions& options) {
+}  // namespace
+
+TopTools_ListOfShape bodies_of(const TopoDS_Shape& shape) {
+  TopTools_ListOfShape bodies;
+  for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next()) bodies.Append(solid.Current());
+  for (TopExp_Explorer shell(shape, TopAbs_SHELL, TopAbs_SOLID); shell.More(); shell.Next())
+    bodies.Append(shell.Current());
+  for (TopExp_Explorer face(shape, TopAbs_FACE, TopAbs_SHELL); face.More(); face.Next())
+    bodies.Append(face.Current());
+  return bodies;
+}
+
+SurfaceModel model_of(const std::string& source, CadShape cad, const CadOptions& options) {
   const TopTools_IndexedMapOfShape faces = parts(cad.shape, TopAbs_FACE),
                                    edges = parts(cad.shape, TopAbs_EDGE);
   SurfaceModel model;
@@ -247,25 +258,18 @@ SurfaceModel make_model(const std::string& source, CadShape cad, const CadOption
   return model;
 }
 
-}  // namespace
-
 SurfaceModel read_by_kernel(const CadModel& cad, const CadOptions& options) {
   const StageScope stage("reading");
   const std::string name = cad.file.empty() ? "CAD data" : cad.file.string();
   if (cad.file.empty() && cad.bytes.empty())
     throw InputError("a CAD model without a file and without bytes: expected one of them");
   try {
-    return make_model(name, prepare_shape(cad, options), options);
+    return model_of(name, prepare_shape(cad, options), options);
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (message.starts_with(name)) throw;
     throw InputError(fmt::format("{}: {}", name, message));
   }
-}
-
-SurfaceModel read_example_by_kernel(const std::string& name, const CadOptions& options) {
-  const StageScope stage("reading");
-  return make_model(name, prepare_shape(make_product(name), options), options);
 }
 
 }  // namespace cad

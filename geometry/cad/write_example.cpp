@@ -21,7 +21,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/activity.h"
 #include "geometry/cad/examples/shapes.h"
+#include "geometry/cad/heal_shape.h"
 #include "geometry/cad/kernel.h"
 
 namespace delquad {
@@ -50,19 +52,6 @@ CadShape make_example(const std::string& name) {
   const auto at = kMakers.find(name);
   if (at != kMakers.end()) return at->second();
   throw std::logic_error("no example " + name);
-}
-
-/// Returns an example whose faces have its name first, like the name of a product in a STEP file.
-CadShape make_product(const std::string& name) {
-  const CadShape example = make_example(name);
-  CadShape product{example.shape};
-  product.unit = "mm";
-  const TopTools_IndexedMapOfShape faces = parts(example.shape, TopAbs_FACE);
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    product.names.add(faces(f), name);
-    product.names.add(faces(f), example.names.of(faces(f)));
-  }
-  return product;
 }
 
 namespace {
@@ -125,7 +114,25 @@ void write_step(const std::string& name, const CadShape& cad, std::ostream& out)
   lines.Print(out);
 }
 
+/// Returns an example whose faces have its name first, like the name of a product in a STEP file.
+CadShape make_product(const std::string& name) {
+  const CadShape example = make_example(name);
+  CadShape product{example.shape};
+  product.unit = "mm";
+  const TopTools_IndexedMapOfShape faces = parts(example.shape, TopAbs_FACE);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    product.names.add(faces(f), name);
+    product.names.add(faces(f), example.names.of(faces(f)));
+  }
+  return product;
+}
+
 }  // namespace
+
+SurfaceModel read_example_by_kernel(const std::string& name, const CadOptions& options) {
+  const StageScope stage("reading");
+  return model_of(name, prepare_shape(make_product(name), options), options);
+}
 
 void write_example_by_kernel(const std::string& name, CadFormat format, std::ostream& out) {
   const CadShape shape = make_example(name);

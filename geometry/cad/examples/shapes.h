@@ -35,7 +35,5 @@ CadShape make_variable_fillet();
 
 /// Returns an example by its name. Throws std::logic_error for an unknown name.
 CadShape make_example(const std::string& name);
-/// Returns the same, with the example's name first on all faces, like the name of a product in a STEP file.
-CadShape make_product(const std::string& name);
 
 }  // namespace delquad::cad
