@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "base/segment.h"
 #include "geometry/surface/element_cuts.h"
 
 namespace delquad {
@@ -27,6 +30,37 @@ constexpr int kAnyAngles = 2, kAnyAreas = 12;
 constexpr double kMostAreas = 300;
 /// Loops above which charts are divided before any map, since one seam for each would take too long.
 constexpr std::size_t kManyLoops = 8;
+
+/// Returns the least distance of the vertices of a loop from another loop.
+double distance_between(const Chart& chart, const std::vector<int>& from, const std::vector<int>& to) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const int v : from)
+    for (std::size_t k = 0; k < to.size(); ++k)
+      least = std::min(least, distance_to_segment(chart.points[v], chart.points[to[k]],
+                                                  chart.points[to[(k + 1) % to.size()]]));
+  return least;
+}
+
+/// Returns a lower bound of the ratio of area scales in all conformal maps of a chart with two loops. Each
+/// loop turns by 2 pi in the plane, so the logarithm of the scale has a flux from loop to loop. Curvature
+/// inside may take some of it. The logarithm varies by at least the flux times gap^2 / area, since these are
+/// below the extremal distance of the loops.
+double least_area_ratio(const Chart& chart) {
+  const std::vector<double> defects = angle_defects(chart);
+  double flux = std::numeric_limits<double>::infinity();
+  for (const auto& loop : chart.loops) {
+    double turn = 0;
+    for (const int v : loop) turn += defects[v];
+    flux = std::min(flux, std::abs(2 * std::numbers::pi - turn));
+  }
+  for (std::size_t v = static_cast<std::size_t>(chart.n_boundary); v < defects.size(); ++v)
+    flux -= std::abs(defects[v]);
+  const std::vector<double> areas = triangle_areas(chart);
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  const double gap = std::min(distance_between(chart, chart.loops[0], chart.loops[1]),
+                              distance_between(chart, chart.loops[1], chart.loops[0]));
+  return std::exp(2 * std::max(0.0, flux) * gap * gap / area);
+}
 
 ChartElements elements_of(const Chart& chart, const FlattenOptions& options) {
   ChartElements elements;
@@ -82,6 +116,10 @@ class ChartWork {
     const double limit = elements_                  ? options_.max_area_ratio
                          : chart_.loops.size() == 2 ? kMaxUncutAnnulus
                                                     : kMaxUncutHoles;
+    // A cylinder's wall is cut open without a map. Quantiles of scales may be nearer than the bound says.
+    if (chart_.loops.size() == 2 && !elements_ && chart_.sides.empty() && !stuck_ && tries_ < kAnyAreas &&
+        least_area_ratio(chart_) > limit * limit)
+      if (auto seam = plan_seam(chart_, ends_)) return {std::nullopt, std::move(seam), false};
     std::optional<ConformalMap> map = checked_map(chart_, spectral_map(chart_), "spectral");
     if (map && acceptable(map->quality, std::min(limit, options_.max_area_ratio)))
       return {std::move(map), {}, false};
