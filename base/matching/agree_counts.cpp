@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <queue>
+#include <utility>
 
 #include "base/cancel.h"
 #include "base/sort_unique.h"
@@ -45,7 +46,10 @@ class Agreement {
         in_sums_(curves.size()),
         at_patch_(n_patches + 1),
         closes_(n_patches + 1, 0),
-        costs_(curves.size()) {
+        costs_(curves.size()),
+        changed_(n_patches + 1, 1),
+        seen_(n_patches + 1, 0),
+        in_vain_(sums.size() + curves.size()) {
     for (std::size_t c = 0; c < curves.size(); ++c) {
       note_costs(static_cast<int>(c));
       if (!curves[c].is_free || curves[c].patches.empty()) continue;
@@ -72,11 +76,14 @@ class Agreement {
         check_cancelled();
         if (steps_.is_spent()) return;
         if (off(static_cast<int>(s)) == 0) continue;
-        if (sums_[s].price_of_pair > 0) better |= close(static_cast<int>(s));
-        better |= make(approach(static_cast<int>(s)).changes);
+        better |= unless_in_vain(s, [&] {
+          const bool closed = sums_[s].price_of_pair > 0 && close(static_cast<int>(s));
+          return make(approach(static_cast<int>(s)).changes) || closed;
+        });
       }
       for (std::size_t c = 0; c < curves_.size(); ++c)
-        if (curves_[c].is_free && !curves_[c].patches.empty()) better |= restore(static_cast<int>(c));
+        if (curves_[c].is_free && !curves_[c].patches.empty())
+          better |= unless_in_vain(sums_.size() + c, [&] { return restore(static_cast<int>(c)); });
       if (!better) return;
     }
   }
@@ -98,9 +105,32 @@ class Agreement {
     Changes changes = {};
   };
 
+  /// A search that changed nothing: its time, and the patches that it looked at.
+  struct InVain {
+    int at = 0;
+    std::vector<int> patches = {};
+  };
+
+  /// Returns search(), or false if it was in vain before and nothing changed since where it looked.
+  template <class Search>
+  bool unless_in_vain(std::size_t task, const Search& search) {
+    InVain& last = in_vain_[task];
+    if (last.at > 0 && std::ranges::all_of(last.patches, [&](int p) { return changed_[p] <= last.at; }))
+      return false;
+    looked_at_.clear();
+    ++searches_;
+    const bool found = search();
+    last = found ? InVain{} : InVain{now_, looked_at_};
+    return found;
+  }
+  void look_at(int patch) {
+    if (std::exchange(seen_[patch], searches_) != searches_) looked_at_.push_back(patch);
+  }
+
   /// Brings a sum to zero, or changes nothing.
   bool close(int sum) {
     std::map<int, int> by;  // change of each curve
+    const std::vector<int> changed = changed_;
     forced_ = sum;
     while (off(sum) != 0) {
       const Best best = approach(sum);
@@ -113,6 +143,7 @@ class Agreement {
     for (const auto& [curve, change] : by)
       if (change != 0) all.push_back({curve, change}), back.push_back({curve, -change});
     make(back);
+    changed_ = changed;
     return is_closed && gain_of(all) > kLeastDecrease && make(all);
   }
 
@@ -120,6 +151,7 @@ class Agreement {
   Best approach(int sum) {
     const double most = price(sum, values_[sum]) + kAdvance;
     Best best;
+    look_at(sums_[sum].patch);
     for (const auto& [curve, times] : sums_[sum].terms)
       if (curves_[curve].is_free) try_change(curve, off(sum) * times > 0 ? -1 : 1, most, best);
     return best;
@@ -169,6 +201,7 @@ class Agreement {
       const Step at = steps[s];
       if (cost > best_[label(at)] || at.length >= kMostCurves) continue;
       steps_.spend(static_cast<long long>(at_patch_[at.patch].size()));
+      look_at(at.patch);
       for (const int b : at_patch_[at.patch])
         for (const int by : {-std::abs(first.by), std::abs(first.by)}) {
           if (b == first.curve || curves_[b].patches.size() > 2) continue;
@@ -176,6 +209,7 @@ class Agreement {
           const Step step{at.cost + cost_of(next) + cost_at(at.patch, at.change, next), beyond(b, at.patch),
                           next, s, at.length + 1};
           if (!(step.cost < most)) continue;
+          look_at(step.patch);
           const bool arrives = step.patch == to;
           const double total = arrives           ? step.cost + cost_at(to, next, first)
                                : to == kAnywhere ? step.cost + cost_at(step.patch, next, {})
@@ -279,6 +313,7 @@ class Agreement {
     }
     sort_unique(touched);
     for (const int s : touched) {
+      look_at(sums_[s].patch);
       int value = values_[s];
       for (const Change& c : changes) value += multiplicity(s, c.curve) * c.by;
       gain += s == forced_ ? kForcedPrice * (std::abs(off(s)) - std::abs(off(s, value)))
@@ -288,10 +323,16 @@ class Agreement {
   }
 
   bool make(const Changes& changes) {
+    ++now_;
     for (const Change& c : changes) {
+      for (const int p : curves_[c.curve].patches) changed_[p] = now_;
+      if (curves_[c.curve].patches.size() == 1) changed_[outside_] = now_;
       counts_[c.curve] += c.by;
       note_costs(c.curve);
-      for (const auto& [s, times] : in_sums_[c.curve]) values_[s] += times * c.by;
+      for (const auto& [s, times] : in_sums_[c.curve]) {
+        values_[s] += times * c.by;
+        changed_[sums_[s].patch] = now_;
+      }
     }
     return !changes.empty();
   }
@@ -312,6 +353,10 @@ class Agreement {
   int forced_ = -1;                                        ///< sum that must become zero
   std::vector<double> best_;                               ///< by label()
   std::vector<std::array<double, 2 * kNoted + 1>> costs_;  ///< cost_of() of each curve by its change
+  int now_ = 1, searches_ = 0;
+  std::vector<int> changed_, seen_;  ///< by patch: when it changed, and the last search that looked at it
+  std::vector<int> looked_at_;       ///< by this search
+  std::vector<InVain> in_vain_;      ///< of sums, then curves
 };
 
 }  // namespace
