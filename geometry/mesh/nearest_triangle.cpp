@@ -40,9 +40,9 @@ constexpr double kMostParts = 64;
 /// Margin for rounding, in longest sides.
 constexpr double kRounding = 1e-12;
 
-/// Returns boxes around the parts of a triangle, which is cut evenly across its longest side. A triangle with
+/// Adds boxes around the parts of a triangle, which is cut evenly across its longest side. A triangle with
 /// two equal corners, as for a line, has one.
-std::vector<Box<Vec3>> boxes_of(std::array<Vec3, 3> x) {
+void add_boxes(std::array<Vec3, 3> x, std::vector<Box<Vec3>>& boxes) {
   const auto length2 = [&](int k) { return dot(x[(k + 1) % 3] - x[k], x[(k + 1) % 3] - x[k]); };
   const int longest = length2(0) >= std::max(length2(1), length2(2)) ? 0 : length2(1) >= length2(2) ? 1 : 2;
   std::rotate(x.begin(), x.begin() + longest, x.end());
@@ -50,20 +50,21 @@ std::vector<Box<Vec3>> boxes_of(std::array<Vec3, 3> x) {
   const double side2 = dot(b - a, b - a), area2 = norm(cross(b - a, c - a));
   const double wanted = side2 > kAspectOfPart * area2 ? side2 / (kAspectOfPart * area2) : 1;
   const int n = wanted < kMostParts ? static_cast<int>(wanted) : static_cast<int>(kMostParts);
-  if (n <= 1 || c == a || c == b) return {Box<Vec3>::around({a, b, c})};
+  if (n <= 1 || c == a || c == b) {
+    boxes.push_back(Box<Vec3>::around({a, b, c}));
+    return;
+  }
   const double peak = nearest_part(c, a, b);
   const auto below = [&](double t) { return a + t * (b - a); };
   const auto above = [&](double t) {
     return t < peak ? a + (t / peak) * (c - a) : t < 1 ? c + ((t - peak) / (1 - peak)) * (b - c) : b;
   };
-  std::vector<Box<Vec3>> boxes;
   for (int i = 0; i < n; ++i) {
     const double from = double(i) / n, to = double(i + 1) / n;
     std::vector<Vec3> corners = {below(from), below(to), above(from), above(to)};
     if (peak >= from && peak <= to) corners.push_back(c);
     boxes.push_back(Box<Vec3>::around(corners).grown(kRounding * std::sqrt(side2)));
   }
-  return boxes;
 }
 
 }  // namespace
@@ -73,12 +74,11 @@ NearestTriangle::NearestTriangle(std::vector<Vec3> points, std::vector<std::arra
   if (triangles_.empty()) throw std::invalid_argument("NearestTriangle: no triangles");
   parts_.reserve(triangles_.size());
   std::vector<Box<Vec3>> boxes;
+  boxes.reserve(triangles_.size());
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    for (const Box<Vec3>& box : boxes_of({points_[a], points_[b], points_[c]})) {
-      parts_.push_back({static_cast<int>(t), box});
-      boxes.push_back(box);
-    }
+    add_boxes({points_[a], points_[b], points_[c]}, boxes);
+    while (parts_.size() < boxes.size()) parts_.push_back({static_cast<int>(t), boxes[parts_.size()]});
   }
   tree_ = BoxTree<Vec3>(boxes);
 }
