@@ -107,8 +107,9 @@ void add_volume(CLI::App& app, Commands& commands) {
       [&strategy = arguments.volume.strategy](const std::string& text) { check_strategy(strategy = text); },
       "of hex-dominant: F or D (points), B (recombination), C (clean-up), O (optimization); default: DBCO");
   volume->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
-  volume->add_option("--element", arguments.msh.element,
-                     "of .inp: C3D4, C3D10 with nodes in the middle of edges, DC3D4, DC3D10, or of hexahedra");
+  volume->add_option(
+      "--element", arguments.msh.element,
+      "of .inp: C3D4, C3D10 with nodes in the middle of edges, DC3D4, DC3D10, or of hexahedra");
   volume->add_option("--json", arguments.json, "record to write");
   add_max_elements(*volume, arguments.max_elements, "refuse to make more cells than this");
   add_threads(*volume, arguments.threads);
