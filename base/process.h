@@ -27,7 +27,7 @@ int wait_for_end(int child);
 
 /// Calls `work` in a forked process, which prints nothing. Returns its result; nothing if the process died,
 /// as by `seconds` of its processor (0: no limit). Throws std::system_error if none can start.
-/// finish_threads() must come before.
+/// `work` has one thread, and may not wait for others of this process.
 std::optional<std::string> call_in_child(const std::function<std::string()>& work, unsigned seconds = 0);
 
 /// Starts a program that prints nothing and outlives this process. A missing program is no error.

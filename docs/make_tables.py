@@ -36,6 +36,8 @@ TABLES = {
     "mbb": ("public/mbb/table.md", ["case", "pipeline", "quads", "triangles", "Verdict.libmesh_shape", "Verdict.shape_mean", "SJ mean"], {}),
     "dial": ("benchmarks/dial.md", ["setting", "quads", "irregular", "eta mean", "eta worst", "tau", "inverted"], {}),
     "volumes": ("benchmarks/volumes.md", ["model", "quads", "cells", "hexahedra, % of volume", "% of cells", "their scaled Jacobian", "least of all", "s"], {}),
+    "delhex": ("benchmarks/delhex.md", ["model", "strategy", "points inside", "hexahedra, % of volume", "% of cells", "their scaled Jacobian", "of pyramids",
+                                        "of tetrahedra", "least of all", "tau", "regular points, %", "sides alone", "s"], {}),
     "per_million": ("benchmarks/per_million.md", SPEED, {"quads asked for": "50000", "program": "(?!.* 4[.]8).*"}),
 }
 # The experiments in experiments/studies/ that take seconds, and need no other model: a test compares their tables.

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "base/context.h"
 #include "base/located.h"
@@ -100,15 +99,17 @@ void add_volume(CLI::App& app, Commands& commands) {
     from->excludes(of_model);
   volume->add_option("-o,--output", arguments.output, "cells to write ('delquad formats' lists files)")
       ->required();
-  static const std::map<std::string, VolumeCells> kinds = {
-      {"hex-dominant", VolumeCells::kHexDominant},
-      {"pyramids-and-tets", VolumeCells::kPyramidsAndTets},
-      {"tets", VolumeCells::kTets}};
-  volume
-      ->add_option("--cells", arguments.volume.cells,
-                   "'hex-dominant' (the default) and 'pyramids-and-tets' keep the quads; 'tets' split each")
-      ->transform(CLI::CheckedTransformer(kinds).description("hex-dominant, pyramids-and-tets or tets"));
+  volume->add_option_function<std::string>(
+      "--cells", [&cells = arguments.volume.cells](const std::string& name) { cells = volume_cells(name); },
+      "'hex-dominant' (the default) and 'pyramids-and-tets' keep the quads; 'tets' split each");
+  volume->add_option_function<std::string>(
+      "--strategy",
+      [&strategy = arguments.volume.strategy](const std::string& text) { check_strategy(strategy = text); },
+      "of hex-dominant: F or D (points), B (recombination), C (clean-up), O (optimization); default: DBCO");
   volume->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
+  volume->add_option(
+      "--element", arguments.msh.element,
+      "of .inp: C3D4, C3D10 with nodes in the middle of edges, DC3D4, DC3D10, or of hexahedra");
   volume->add_option("--json", arguments.json, "record to write");
   add_max_elements(*volume, arguments.max_elements, "refuse to make more cells than this");
   add_threads(*volume, arguments.threads);

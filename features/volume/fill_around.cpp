@@ -77,18 +77,18 @@ void drop_cells(Mesh& body, const std::vector<int>& cells) {
 /// Fills a void, and adds the cells to a body.
 class Filler {
  public:
-  explicit Filler(Mesh& body) : body_(body) {}
+  Filler(Mesh& body, bool improve) : body_(body), improve_(improve) {}
 
   std::vector<int> fill() {
     for (int round = 0;; ++round) {
       check_cancelled();
       faces_ = open_faces(body_);
       if (faces_.empty()) return {};
-      const Filling filling = fill_void(boundary_of_void());
+      const Filling filling = fill_void(boundary_of_void(), improve_);
       std::vector<int> cells;
       if (!filling.lost.empty())
         cells = cells_at(filling.lost);
-      else if (round < kPoorRounds)
+      else if (improve_ && round < kPoorRounds)
         cells = cells_beside_poor(filling);
       if (cells.empty() && filling.lost.empty()) {
         add_cells(filling);
@@ -169,14 +169,15 @@ class Filler {
   }
 
   Mesh& body_;
+  const bool improve_;
   std::vector<OpenFace> faces_;  ///< of the void, in the order of VoidBoundary
 };
 
 }  // namespace
 
-std::vector<int> fill_around(Mesh& body) {
+std::vector<int> fill_around(Mesh& body, bool improve) {
   number_volumes(body);
-  const std::vector<int> lost = Filler(body).fill();
+  const std::vector<int> lost = Filler(body, improve).fill();
   number_volumes(body);
   return lost;
 }

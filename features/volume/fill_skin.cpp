@@ -110,8 +110,8 @@ class SkinFiller {
       else
         part.quads.push_back(quad);
     }
-    if (options_.cells == VolumeCells::kHexDominant) place_hexahedra(part);
-    lost = fill_around(part);
+    if (options_.cells == VolumeCells::kHexDominant) place_hexahedra(part, options_.strategy);
+    lost = fill_around(part, options_.cells != VolumeCells::kHexDominant || options_.strategy.ends_with('O'));
     for (int& face : lost) face /= tets_alone() ? 2 : 1;
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
     if (!lost.empty()) return;
@@ -145,18 +145,31 @@ class SkinFiller {
         tets_alone() ? "" : "'--cells tets', which splits quads, or ");
   }
 
-  /// Names a volume by what all its faces have in common.
+  /// Names a volume by what all its faces have in common. A name that one body has on
+  /// all faces, and no other face has, is its own. So an inclusion does not get the name of the body around
+  /// it.
   void name_volumes() {
-    for (const Body& body : bodies_) {
-      std::vector<std::string> names = result_.regions[result_.quad_region[body[0].quad]].names;
-      for (const BodySide& side : body) {
+    std::map<std::string, std::size_t> n_faces;
+    for (const int region : result_.quad_region)
+      for (const std::string& name : result_.regions[region].names) ++n_faces[name];
+    std::map<std::string, std::size_t> owner;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      std::vector<std::string> names = result_.regions[result_.quad_region[bodies_[b][0].quad]].names;
+      for (const BodySide& side : bodies_[b]) {
         const auto& of_face = result_.regions[result_.quad_region[side.quad]].names;
         std::erase_if(names, [&](const std::string& name) {
           return std::ranges::find(of_face, name) == of_face.end();
         });
       }
-      result_.volumes.push_back({static_cast<int>(result_.volumes.size()) + 1, names});
+      for (const std::string& name : names)
+        if (n_faces[name] == bodies_[b].size()) owner[name] = b;
+      result_.volumes.push_back({static_cast<int>(b) + 1, names});
     }
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      std::erase_if(result_.volumes[b].names, [&](const std::string& name) {
+        const auto own = owner.find(name);
+        return own != owner.end() && own->second != b;
+      });
   }
 
   /// Lets quads of single bodies look outwards; splits them for tetrahedra.
@@ -185,7 +198,15 @@ class SkinFiller {
 
 }  // namespace
 
+VolumeCells volume_cells(const std::string& name) {
+  if (name == "hex-dominant") return VolumeCells::kHexDominant;
+  if (name == "pyramids-and-tets") return VolumeCells::kPyramidsAndTets;
+  if (name == "tets") return VolumeCells::kTets;
+  refuse("cells '{}': expected hex-dominant, pyramids-and-tets or tets", name);
+}
+
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {
+  check_strategy(options.strategy);
   check_skin(skin, options.max_elements);
   const Mesh mesh = SkinFiller(skin, options, notes).fill();
   if (const std::vector<std::string> defects = defects_of_cells(mesh); !defects.empty())

@@ -196,7 +196,7 @@ std::vector<Triangle> split(const std::vector<Quad>& quads, const std::vector<Tr
 }
 
 /// Fills by given quads, whose diagonals from the first corners are used.
-Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads) {
+Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads, bool is_improved) {
   Filling result;
   result.lost = untangle(boundary.points, quads, boundary.triangles);
   if (!result.lost.empty()) return result;
@@ -215,7 +215,7 @@ Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads) {
   CellMesh mesh(made->points, boundary.points.size());
   for (const auto& [a, b, c, d] : inside) mesh.add({a, b, c, d, -1});
   result.lost = PyramidMaker(mesh, quads).make();
-  improve(mesh, kWanted);
+  if (is_improved) improve(mesh, kWanted);
   std::set<int> flat;
   for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
     if (!mesh.is_alive(static_cast<int>(c))) continue;
@@ -265,7 +265,7 @@ std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& qu
   }
 }
 
-Filling fill_void(const VoidBoundary& boundary) {
+Filling fill_void(const VoidBoundary& boundary, bool improve) {
   Filling best;
   std::vector<char> other(boundary.quads.size(), 0);
   constexpr int kAttempts = 3;
@@ -273,7 +273,7 @@ Filling fill_void(const VoidBoundary& boundary) {
     std::vector<Quad> quads;
     for (std::size_t q = 0; q < boundary.quads.size(); ++q)
       quads.push_back(turned(boundary.points, boundary.quads[q], other[q]));
-    Filling filling = fill(boundary, quads);
+    Filling filling = fill(boundary, quads, improve);
     if (attempt == 0 || filling.lost.size() < best.lost.size()) best = filling;
     if (best.lost.empty()) break;
     for (const int face : filling.lost)

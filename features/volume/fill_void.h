@@ -37,7 +37,8 @@ std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<std::arra
                           const std::vector<std::array<int, 3>>& triangles, Vec3* where = nullptr);
 
 /// Fills a void. Tetrahedra come from tetrahedralise(). Two of them on a quad with a common apex become a
-/// pyramid. Elsewhere a new vertex splits the diagonal of the quad and is raised. Then cells are improved.
-Filling fill_void(const VoidBoundary& boundary);
+/// pyramid. Elsewhere a new vertex splits the diagonal of the quad and is raised. Then cells are improved, if
+/// asked.
+Filling fill_void(const VoidBoundary& boundary, bool improve);
 
 }  // namespace delquad

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <unordered_map>
 
 #include "base/sort_unique.h"
@@ -15,8 +16,6 @@ namespace {
 constexpr double kNear = 0.55;
 /// Greatest distance of a neighbor from its place, in sizes: of the best one, and of all that may serve.
 constexpr double kSlot = 0.5, kEdge = 0.75;
-/// Most neighbors along a direction.
-constexpr std::size_t kMostBeside = 3;
 /// Least distance of a new point to the skin, in its least size, and the same after moves.
 constexpr double kNearSkin = 0.5, kCrowdsSkin = 0.35;
 /// Least distance from the skin of the middle of an edge inside between vertices of the skin, in its size.
@@ -25,7 +24,65 @@ constexpr double kThin = 0.15;
 constexpr double kCrowded = 0.5;
 constexpr int kRounds = 3, kMoves = 8;
 
-int opposite(int direction) { return (direction + 3) % 6; }
+/// Half of the twelve neighbors in a packing of tetrahedra, along the axes of a frame; the others are
+/// opposite.
+constexpr double kHeight = std::numbers::sqrt2 / 2;
+constexpr std::array<Vec3, 6> kTetrahedra = {{{1, 0, 0},
+                                              {0, 1, 0},
+                                              {0.5, 0.5, kHeight},
+                                              {0.5, -0.5, kHeight},
+                                              {-0.5, 0.5, kHeight},
+                                              {-0.5, -0.5, kHeight}}};
+constexpr int kMostNeighbours = 12;
+/// Slots of a point that has no neighbors.
+constexpr std::array<int, kMostNeighbours> kNone = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+
+/// Directions and lengths of a packing in frames.
+class Neighbours {
+ public:
+  explicit Neighbours(Packing packing) : are_cubes_(packing == Packing::kCubes) {}
+
+  int number() const { return are_cubes_ ? 6 : kMostNeighbours; }
+  /// Returns the most points that may serve along a direction.
+  std::size_t most_beside() const { return are_cubes_ ? 3 : 1; }
+  int opposite(int direction) const { return (direction + number() / 2) % number(); }
+  /// Returns the way to a neighbor.
+  Vec3 step(const Frame& f, int direction) const {
+    if (are_cubes_) return f.size(direction) * f.along(direction);
+    const Vec3& c = kTetrahedra[direction % 6];
+    const Vec3 v =
+        (c.x * f.sizes[0]) * f.axes[0] + (c.y * f.sizes[1]) * f.axes[1] + (c.z * f.sizes[2]) * f.axes[2];
+    return direction < 6 ? v : -1.0 * v;
+  }
+  /// Returns the mean of the ways by two frames: of directions and of lengths.
+  Vec3 step(const Frame& f, const Frame& g, int direction) const {
+    if (are_cubes_) {
+      const Vec3 mid = f.along(direction) + g.along(direction);
+      return (0.5 * (f.size(direction) + g.size(direction)) / norm(mid)) * mid;
+    }
+    return 0.5 * (step(f, direction) + step(g, direction));
+  }
+  /// Returns the direction nearest to v.
+  int nearest(const Frame& f, const Vec3& v) const {
+    if (are_cubes_) return f.nearest(v);
+    const Vec3 u = in_sizes(f, v);
+    int best = 0;
+    for (int d = 1; d < 6; ++d)
+      if (std::abs(dot(u, kTetrahedra[d])) > std::abs(dot(u, kTetrahedra[best]))) best = d;
+    return dot(u, kTetrahedra[best]) > 0 ? best : best + 6;
+  }
+  /// Returns the norm of v in sizes.
+  double length(const Frame& f, const Vec3& v) const {
+    return are_cubes_ ? f.length(v) : norm(in_sizes(f, v));
+  }
+
+ private:
+  static Vec3 in_sizes(const Frame& f, const Vec3& v) {
+    return {dot(v, f.axes[0]) / f.sizes[0], dot(v, f.axes[1]) / f.sizes[1], dot(v, f.axes[2]) / f.sizes[2]};
+  }
+
+  bool are_cubes_;
+};
 
 /// Finds points near a place, in cells of several lengths, so that each search visits few cells.
 class PointGrid {
@@ -81,8 +138,9 @@ double usual_size(const FrameField& field, int n_skin) {
 class PointFront {
  public:
   PointFront(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads, const Skin& skin,
-             const FrameField& field)
-      : quads_(quads),
+             const FrameField& field, Packing packing)
+      : neighbours_(packing),
+        quads_(quads),
         skin_(skin),
         field_(field),
         n_skin_(static_cast<int>(points.size())),
@@ -108,7 +166,7 @@ class PointFront {
       lists[q].push_back(p);
     };
     for (int p = 0; p < size(); ++p)
-      for (int d = 0; d < 6; ++d) {
+      for (int d = 0; d < neighbours_.number(); ++d) {
         if (slots_[p][d] >= 0) join(lattice.best, p, slots_[p][d]);
         for (const int q : candidates(p, d)) join(lattice.beside, p, q);
       }
@@ -130,7 +188,7 @@ class PointFront {
     points_.push_back(x);
     frames_.push_back(frame);
     cells_.push_back(cell);
-    slots_.push_back({-1, -1, -1, -1, -1, -1});
+    slots_.push_back(kNone);
   }
 
   /// Returns the point nearest to x in the norm of `frame`, without `own`, and its distance.
@@ -139,7 +197,7 @@ class PointFront {
     const double reach = limit * norm(Vec3{frame.sizes[0], frame.sizes[1], frame.sizes[2]});
     grid_.near(x, reach, [&](int q) {
       if (q == own) return;
-      const double d = frame.length(points_[q] - x);
+      const double d = neighbours_.length(frame, points_[q] - x);
       if (d < best.second || (d == best.second && best.first > q)) best = {q, d};
     });
     return best;
@@ -148,21 +206,20 @@ class PointFront {
   /// Links p to q along a direction of p, and q to p if its direction is free.
   void link(int p, int direction, int q) {
     slots_[p][direction] = q;
-    const int back = frames_[q].nearest(points_[p] - points_[q]);
+    const int back = neighbours_.nearest(frames_[q], points_[p] - points_[q]);
     if (slots_[q][back] < 0) slots_[q][back] = p;
   }
 
   void advance() {
     for (int p = 0; p < size(); ++p)
-      for (int d = 0; d < 6; ++d) {
+      for (int d = 0; d < neighbours_.number(); ++d) {
         if (slots_[p][d] >= 0) continue;
         const Frame& own = frames_[p];
-        Vec3 x = points_[p] + own.size(d) * own.along(d);
+        Vec3 x = points_[p] + neighbours_.step(own, d);
         int cell = cells_[p];
         Frame there = field_.at(x, own, cell);
         if (cell < 0) continue;
-        const Vec3 mid = own.along(d) + there.along(d);
-        x = points_[p] + (0.5 * (own.size(d) + there.size(d)) / norm(mid)) * mid;
+        x = points_[p] + neighbours_.step(own, there, d);
         const auto [q, distance] = nearest(x, there, kNear, p);
         if (q >= 0) {
           link(p, d, q);
@@ -174,35 +231,35 @@ class PointFront {
         if (cell < 0) continue;
         add(x, there, cell);
         slots_[p][d] = size() - 1;
-        slots_.back()[opposite(d)] = p;
+        slots_.back()[neighbours_.opposite(d)] = p;
       }
   }
 
   /// Sets the slots anew by places; on the skin along sides of quads first.
   void find_slots() {
-    for (auto& slots : slots_) slots = {-1, -1, -1, -1, -1, -1};
+    for (auto& slots : slots_) slots = kNone;
     for (const auto& q : quads_)
       for (int k = 0; k < 4; ++k)
         for (const auto& [v, w] : {std::pair(q[k], q[(k + 1) % 4]), {q[(k + 1) % 4], q[k]}}) {
           const Vec3 e = points_[w] - points_[v];
-          int& slot = slots_[v][frames_[v].nearest(e)];
+          int& slot = slots_[v][neighbours_.nearest(frames_[v], e)];
           if (slot < 0 || dot(points_[slot] - points_[v], e) < 0) slot = w;
         }
     for (int p = 0; p < size(); ++p)
-      for (int d = 0; d < 6; ++d) {
+      for (int d = 0; d < neighbours_.number(); ++d) {
         if (slots_[p][d] >= 0) continue;
         const Frame& f = frames_[p];
-        slots_[p][d] = nearest(points_[p] + f.size(d) * f.along(d), f, kSlot, p).first;
+        slots_[p][d] = nearest(points_[p] + neighbours_.step(f, d), f, kSlot, p).first;
       }
   }
 
   /// Returns the points nearest to the place of a neighbor, nearest first.
   std::vector<int> candidates(int p, int direction) const {
     const Frame& f = frames_[p];
-    const Vec3 x = points_[p] + f.size(direction) * f.along(direction);
+    const Vec3 x = points_[p] + neighbours_.step(f, direction);
     std::vector<std::pair<double, int>> near;
     grid_.near(x, kEdge * norm(Vec3{f.sizes[0], f.sizes[1], f.sizes[2]}), [&](int q) {
-      const double distance = f.length(points_[q] - x);
+      const double distance = neighbours_.length(f, points_[q] - x);
       if (q == p || distance >= kEdge) return;
       if (p < n_skin_ && q < n_skin_) {
         const double gap = kThin * least(f);
@@ -212,7 +269,8 @@ class PointFront {
     });
     std::ranges::sort(near);
     std::vector<int> found;
-    for (std::size_t i = 0; i < near.size() && i < kMostBeside; ++i) found.push_back(near[i].second);
+    for (std::size_t i = 0; i < near.size() && i < neighbours_.most_beside(); ++i)
+      found.push_back(near[i].second);
     return found;
   }
 
@@ -220,12 +278,12 @@ class PointFront {
     std::vector<Vec3> sum(points_.size(), Vec3{0, 0, 0});
     std::vector<double> count(points_.size(), 0);
     for (int p = 0; p < size(); ++p)
-      for (int d = 0; d < 6; ++d) {
+      for (int d = 0; d < neighbours_.number(); ++d) {
         const int q = slots_[p][d];
         if (q < 0) continue;
         const Frame &f = frames_[p], &g = frames_[q];
-        const int e = g.nearest(points_[p] - points_[q]);
-        const Vec3 step = 0.5 * (f.size(d) * f.along(d) - g.size(e) * g.along(e));
+        const int e = neighbours_.nearest(g, points_[p] - points_[q]);
+        const Vec3 step = 0.5 * (neighbours_.step(f, d) - neighbours_.step(g, e));
         sum[p] = sum[p] + points_[q] - step;
         sum[q] = sum[q] + points_[p] + step;
         count[p] += 1, count[q] += 1;
@@ -263,7 +321,7 @@ class PointFront {
       if (goes[p]) continue;
       const Frame& f = frames_[p];
       grid_.near(points_[p], kCrowded * norm(Vec3{f.sizes[0], f.sizes[1], f.sizes[2]}), [&](int q) {
-        if (q == p || goes[q] || f.length(points_[q] - points_[p]) > kCrowded) return;
+        if (q == p || goes[q] || neighbours_.length(f, points_[q] - points_[p]) > kCrowded) return;
         if (q < n_skin_ || std::pair(links(p), q) <= std::pair(links(q), p)) goes[p] = 1;
       });
     }
@@ -277,6 +335,7 @@ class PointFront {
     rebuild_grid();
   }
 
+  const Neighbours neighbours_;
   const std::vector<std::array<int, 4>>& quads_;
   const Skin& skin_;
   const FrameField& field_;
@@ -285,15 +344,15 @@ class PointFront {
   std::vector<Vec3> points_;
   std::vector<Frame> frames_;
   std::vector<int> cells_;  ///< of the field
-  std::vector<std::array<int, 6>> slots_;
+  std::vector<std::array<int, kMostNeighbours>> slots_;
   PointGrid grid_;
 };
 
 }  // namespace
 
 Lattice fill_with_points(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
-                         const Skin& skin, const FrameField& field) {
-  return PointFront(points, quads, skin, field).fill();
+                         const Skin& skin, const FrameField& field, Packing packing) {
+  return PointFront(points, quads, skin, field, packing).fill();
 }
 
 }  // namespace delquad

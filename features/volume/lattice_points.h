@@ -19,13 +19,21 @@ struct Lattice {
   std::vector<std::vector<int>> best, beside;
 };
 
+/// Neighbors that points of a lattice want.
+enum class Packing {
+  kCubes,  ///< six, one size along the axes of the frame; the L-infinity norm
+  /// Twelve of equilateral tetrahedra and octahedra, whose squares lie across the third axis, which is the
+  /// normal at the skin; the Euclidean norm.
+  kTetrahedra,
+};
+
 /// Returns a lattice that follows the field inside of the skin.
 ///
 /// A front starts at the skin, as the front of squares in the plane [remacle2013]. Each point proposes a
-/// point at one size along each direction. It is kept if no other is too near in the L-infinity norm of its
-/// frame. Then points move to where their neighbors want them, crowded points go, and the front fills gaps
-/// again.
+/// point at one size along each direction of the packing. It is kept if no other is too near in the norm of
+/// its frame. Then points move to where their neighbors want them, crowded points go, and the front fills
+/// gaps again.
 Lattice fill_with_points(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
-                         const Skin& skin, const FrameField& field);
+                         const Skin& skin, const FrameField& field, Packing packing);
 
 }  // namespace delquad

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/volume/place_hexahedra.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "base/located.h"
+#include "base/sort_unique.h"
+#include "delquad/hexahedra.h"
 #include "features/volume/frame_field.h"
 #include "features/volume/lattice_points.h"
 #include "features/volume/select_cells.h"
@@ -10,25 +16,80 @@
 
 namespace delquad {
 
-void place_hexahedra(Mesh& volume) {
-  const Skin skin(volume.points, volume.quads);
-  const FrameField field(volume.points, volume.quads, skin);
-  const Lattice lattice = fill_with_points(volume.points, volume.quads, skin, field);
-  auto candidates = find_hexahedra(lattice.points, lattice.best, volume.quads, skin);
-  auto hexahedra = select_hexahedra(lattice.points, volume.quads, candidates);
-  const auto is_enclosed = enclosed_points(lattice.points.size(), volume.quads, hexahedra);
-  auto beside = lattice.beside;
+namespace {
+
+/// State between the stages of a strategy.
+struct Placement {
+  const Mesh& body;
+  Skin skin{body.points, body.quads};
+  FrameField field{body.points, body.quads, skin};
+  Lattice lattice = {};
+  std::vector<Hexahedron> hexahedra = {};
+
+  void add_points(Packing packing) {
+    lattice = fill_with_points(body.points, body.quads, skin, field, packing);
+  }
+  std::vector<Hexahedron> between(const std::vector<std::vector<int>>& beside) const {
+    return find_hexahedra(lattice.points, beside, body.quads, skin);
+  }
+  void choose(const std::vector<Hexahedron>& candidates) {
+    hexahedra = select_hexahedra(lattice.points, body.quads, candidates);
+  }
+};
+
+/// Chooses hexahedra anew, where they leave room also between neighbors that are not the best.
+void clean_up(Placement& in) {
+  const auto is_enclosed = enclosed_points(in.lattice.points.size(), in.body.quads, in.hexahedra);
+  auto beside = in.lattice.beside;
   for (std::size_t v = 0; v < beside.size(); ++v)
     if (is_enclosed[v])
       beside[v].clear();
     else
       std::erase_if(beside[v], [&](int w) { return is_enclosed[w]; });
-  const auto more = find_hexahedra(lattice.points, beside, volume.quads, skin);
-  candidates = hexahedra;
-  candidates.insert(candidates.end(), more.begin(), more.end());
-  std::ranges::sort(candidates);
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  hexahedra = select_hexahedra(lattice.points, volume.quads, candidates);
+  std::vector<Hexahedron> candidates = in.between(beside);
+  candidates.insert(candidates.end(), in.hexahedra.begin(), in.hexahedra.end());
+  sort_unique(candidates);
+  in.choose(candidates);
+}
+
+struct VolumeStage {
+  char letter;
+  const char* name;
+  int step;  ///< the letters of a strategy have rising steps
+  void (*run)(Placement&);
+};
+constexpr int kPointsStep = 0, kHexahedraStep = 1;
+constexpr VolumeStage kStages[] = {
+    {'F', "points of equilateral tetrahedra", kPointsStep,
+     [](Placement& in) { in.add_points(Packing::kTetrahedra); }},
+    {'D', "points of cubes", kPointsStep, [](Placement& in) { in.add_points(Packing::kCubes); }},
+    {'B', "recombination", kHexahedraStep, [](Placement& in) { in.choose(in.between(in.lattice.best)); }},
+    {'C', "clean-up", 2, clean_up},
+    {'O', "optimization of the cells around hexahedra", 3, [](Placement&) {}}};
+
+}  // namespace
+
+void check_strategy(const std::string& strategy) {
+  std::string known;
+  int step = -1;
+  bool is_known = true, has_hexahedra = false;
+  for (const VolumeStage& stage : kStages)
+    known += fmt::format("{}{} ({})", known.empty() ? "" : ", ", stage.letter, stage.name);
+  for (const char letter : strategy) {
+    const auto* stage = std::ranges::find(kStages, letter, &VolumeStage::letter);
+    is_known &= stage != std::end(kStages) && stage->step > step && (step >= 0 || stage->step == kPointsStep);
+    if (!is_known) break;
+    step = stage->step;
+    has_hexahedra |= step == kHexahedraStep;
+  }
+  if (!is_known || !has_hexahedra)
+    refuse("strategy '{}': expected F or D, then B, then C and O if wanted, as in DBCO: {}", strategy, known);
+}
+
+void place_hexahedra(Mesh& volume, const std::string& strategy) {
+  Placement placement{volume};
+  for (const char letter : strategy) std::ranges::find(kStages, letter, &VolumeStage::letter)->run(placement);
+  auto& [body, skin, field, lattice, hexahedra] = placement;
   separate_sides(lattice.points, volume.quads, hexahedra);
 
   std::vector<int> index(lattice.points.size(), -1);

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "base/orientation.h"
-#include "base/parallel.h"
 #include "base/process.h"
 #include "base/sort_unique.h"
 
@@ -74,7 +73,6 @@ std::optional<Tetrahedra> tetrahedralise(const std::vector<Vec3>& points,
   std::vector<std::array<int, 3>> numbered = triangles;
   for (auto& t : numbered)
     for (int& v : t) v = static_cast<int>(std::ranges::lower_bound(used, v) - used.begin());
-  finish_threads();
   const auto bytes = call_in_child([&] { return run_tetgen(corners, numbered, holes); },
                                    kSeconds + static_cast<unsigned>(triangles.size()) / kTrianglesPerSecond);
   int n = 0;

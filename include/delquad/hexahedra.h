@@ -88,7 +88,16 @@ enum class VolumeCells {
 struct VolumeOptions {
   VolumeCells cells = VolumeCells::kHexDominant;
   long long max_elements = 50'000'000;
+  /// Stages that make hexahedra and the cells around them, by letter. `F` or `D` place points, of equilateral
+  /// tetrahedra or of cubes along a field of frames. `B` recombines them to hexahedra, `C` fills gaps
+  /// between these again, `O` optimizes pyramids and tetrahedra. `C` and `O` may be absent.
+  std::string strategy = "DBCO";
 };
+
+/// Returns the kind of a name: "hex-dominant", "pyramids-and-tets" or "tets". Throws InputError for another.
+VolumeCells volume_cells(const std::string& name);
+/// Throws InputError unless a text is as VolumeOptions::strategy.
+void check_strategy(const std::string& strategy);
 
 /// Fills closed quads of order 1 with cells. Quads may enclose cavities and several bodies, also with quads
 /// between them. Points keep their numbers and places. Quads look outwards afterwards; with tetrahedra alone

@@ -122,6 +122,16 @@ Mesh extruded(const Mesh& mesh, int layers, double growth, const std::map<std::s
   return result;
 }
 
+Mesh filled(const Mesh& skin, const std::string& cells, const std::string& strategy, long long max_elements,
+            int threads, double time_limit) {
+  Mesh result;
+  CallingThread().run([&](const std::stop_token& stop) {
+    const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
+    result = fill_skin(skin, {volume_cells(cells), max_elements, strategy});
+  });
+  return result;
+}
+
 void define_mesh(py::module_& m) {
   py::class_<Mesh, std::shared_ptr<Mesh>> c(m, "Mesh", "Points and elements; indices count from 0.");
   add_entities(c, "curves", &Mesh::curves);
@@ -168,6 +178,7 @@ void define_mesh(py::module_& m) {
       .def("_write_file", &write);
   m.def("read_mesh", &read, arg("path"));
   m.def("extrude", &extruded);
+  m.def("fill_skin", &filled);
   m.def("_extensions", &extensions, arg("written"));
 }
 

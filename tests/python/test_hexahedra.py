@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Quads that are swept to hexahedra."""
+"""Cells of volumes: swept from quads, and between closed quads."""
 
 import math
 
@@ -58,3 +58,26 @@ def test_what_cannot_be_swept():
         delquad.extrude(delquad.mesh(delquad.polygons([SQUARE]), size=0.25, word="D"), along=(0, 0, 1), layers=2)
     with pytest.raises(TypeError, match="expected a delquad.Mesh"):
         delquad.extrude(3, along=(0, 0, 1), layers=2)
+
+
+def test_closed_models_are_filled():
+    model = delquad.example("sphere")
+    ball = delquad.volume(model, quads=300, threads=1)
+    skin = delquad.mesh(model, quads=300, threads=1)
+    assert np.array_equal(ball.quads, skin.quads) and len(ball.volumes) == 1
+    assert len(ball.scaled_jacobian) == len(ball.hexahedra) + len(ball.pyramids) + len(ball.tetrahedra)
+    assert ball.scaled_jacobian.min() > 0 and np.array_equal(delquad.volume(skin).points, ball.points)
+    assert len(delquad.volume(skin, strategy="FB").hexahedra) < len(ball.hexahedra)
+    tets = delquad.volume(skin, cells="tets")
+    assert len(tets.hexahedra) == 0 and len(tets.triangles) == 2 * len(skin.quads) and tets.volume == pytest.approx(ball.volume, rel=0.01)
+
+
+def test_what_cannot_be_filled():
+    with pytest.raises(delquad.InputError, match="open at the edge"):
+        delquad.volume(square())
+    with pytest.raises(delquad.InputError, match="expected no size"):
+        delquad.volume(square(), 0.5)
+    with pytest.raises(delquad.InputError, match="cells 'cubes'"):
+        delquad.volume(square(), cells="cubes")
+    with pytest.raises(delquad.InputError, match="strategy 'X'"):
+        delquad.volume(square(), strategy="X")

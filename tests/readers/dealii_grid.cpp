@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens an MSH file in deal.II and prints what it holds as JSON: points, quads, and how many cells and
-// boundary faces have each number.
+// boundary faces have each number. With the argument 3 "quads" are the cells of a volume.
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/tria.h>
 
@@ -20,9 +20,10 @@ void print(const std::map<long long, long long>& counts) {
   std::cout << "}";
 }
 
+template <int dim>
 void open(const char* path) {
-  dealii::Triangulation<2, 3> grid;
-  dealii::GridIn<2, 3> reader;
+  dealii::Triangulation<dim, 3> grid;
+  dealii::GridIn<dim, 3> reader;
   reader.attach_triangulation(grid);
   std::ifstream file(path);
   reader.read_msh(file);
@@ -42,9 +43,9 @@ void open(const char* path) {
 
 }  // namespace
 
-int main(int, char** arguments) {
+int main(int n, char** arguments) {
   try {
-    open(arguments[1]);
+    (n > 2 ? open<3> : open<2>)(arguments[1]);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;

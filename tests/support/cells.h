@@ -2,28 +2,21 @@
 #pragma once
 
 #include "geometry/mesh/cell_shapes.h"
+#include "io/cell_view.h"
 
 // This header makes meshes of cells of all shapes. Tests of measures, readers and writers use it.
 
 namespace delquad::testing_support {
 
-/// Adds the sides of one cell as faces of the mesh, by f(nodes), the index of a region.
+/// Adds the sides of one cell as faces of the mesh, by f(mesh, nodes), the index of a region.
 template <class Region>
 void add_skin(Mesh& mesh, const Region& region_of) {
-  const std::vector<SolidSide> sides = sorted_sides(mesh);
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const auto is_like = [&](std::size_t j) { return j < sides.size() && sides[j].nodes == sides[i].nodes; };
-    if (is_like(i + 1) || (i > 0 && is_like(i - 1))) continue;
-    const auto [a, b, c, d] = solid_at(mesh, sides[i].side.element).side(sides[i].side.side);
-    const int region = region_of(mesh, std::array{a, b, c, d});
-    if (d < 0) {
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangle_region.push_back(region);
-    } else {
-      mesh.quads.push_back({a, b, c, d});
-      mesh.quad_region.push_back(region);
-    }
-  }
+  const std::vector<Entity> regions = mesh.regions;
+  complete_faces(mesh, nullptr);
+  mesh.regions = regions;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    mesh.triangle_region[i] = region_of(mesh, mesh.triangles[i]);
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) mesh.quad_region[i] = region_of(mesh, mesh.quads[i]);
 }
 
 /// Three cubes with sides 1: a hexahedron, beside it five pyramids and two tetrahedra around a point, above
@@ -60,7 +53,7 @@ inline Mesh mixed_solid(bool with_pyramids = true) {
   mesh.tet_volume.assign(2, 0);
   mesh.volumes = {{1, {"steel"}}, {2, {"copper"}}};
   mesh.regions = {{1, {"floor"}}, {2, {"rest"}}};
-  add_skin(mesh, [](const Mesh& m, const std::array<int, 4>& side) {
+  add_skin(mesh, [](const Mesh& m, const auto& side) {
     return m.points[side[0]].z == 0 && m.points[side[1]].z == 0 && m.points[side[2]].z == 0 ? 0 : 1;
   });
   return mesh;

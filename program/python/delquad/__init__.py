@@ -38,7 +38,7 @@ from ._core import (
 )
 from ._adapt import adapt, estimate_error, recover_gradient, recover_hessian, transfer
 from ._exchange import View, from_meshio, read_mesh
-from ._hexahedra import extrude
+from ._hexahedra import extrude, volume
 from ._mesh import UnsoundError, cad, improve, judge, mesh, planar, polygons
 from ._parts import add_cross, add_merge_cost, add_metric, add_size, add_stage, run
 

@@ -188,6 +188,17 @@ def extrude(
     threads: int = 0,
     time_limit: float = 0.0,
 ) -> Mesh: ...
+def volume(
+    model: Model | Mesh | _Path,
+    size: float | str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,
+    *,
+    cells: Literal["hex-dominant", "pyramids-and-tets", "tets"] = "hex-dominant",
+    strategy: str = "DBCO",
+    max_elements: int = 50_000_000,
+    threads: int = 0,
+    time_limit: float = 0.0,
+    **settings: Any,
+) -> Mesh: ...
 def mesh(
     model: Model | Mesh | _Path,
     size: float | str | Callable[[_Floats], npt.ArrayLike] | tuple[Mesh, npt.ArrayLike] | None = None,

@@ -65,7 +65,12 @@ TEST(FillSkin, FillsBodiesThatShareQuads) {
   const Mesh mesh = fill_skin(skin, kPyramids);
   EXPECT_EQ(mesh.volumes[mesh.tet_volume[0]].names.size(), 1u);
   EXPECT_NE(mesh.volumes[0].names, mesh.volumes[1].names);
-  expect_filled(skin_of_labels(3, [](int i, int j, int k) { return i * j * k == 1 ? 2 : 1; }), 27, 2);
+  const Mesh inclusion = skin_of_labels(3, [](int i, int j, int k) { return i * j * k == 1 ? 2 : 1; });
+  expect_filled(inclusion, 27, 2);
+  const Mesh both = fill_skin(inclusion);
+  EXPECT_EQ(both.volumes[both.hex_volume[0]].names, std::vector<std::string>{"body 1"});
+  EXPECT_EQ(both.volumes[0].names.size() + both.volumes[1].names.size(), 2u);
+  EXPECT_NE(both.volumes[0].names, both.volumes[1].names);
 }
 
 TEST(FillSkin, TurnsQuadsOutwards) {
@@ -74,6 +79,14 @@ TEST(FillSkin, TurnsQuadsOutwards) {
   EXPECT_EQ(mesh.quads, skin.quads);
   for (std::size_t i = 0; i < skin.quads.size(); i += 2) std::swap(skin.quads[i][1], skin.quads[i][3]);
   EXPECT_EQ(fill_skin(skin).quads, mesh.quads);
+}
+
+TEST(FillSkin, TakesAllStrategies) {
+  const Mesh ball = sphere(6, 2);
+  for (const char* strategy : {"FB", "FBCO", "DB", "DBC", "DBO"})
+    expect_sound_cells(fill_skin(ball, {.strategy = strategy}), volume_of(ball));
+  for (const char* wrong : {"", "B", "D", "FD", "DO", "DFB", "DBCCO", "DBX", "DBOC"})
+    expect_input_error([&] { fill_skin(ball, {.strategy = wrong}); }, {"strategy '", "F or D"});
 }
 
 TEST(FillSkin, RefusesOtherSkins) {

@@ -97,9 +97,9 @@ double expect_placed(const Mesh& skin, const Mesh& mesh) {
   return filled / whole;
 }
 
-double share(const Mesh& skin) {
+double share(const Mesh& skin, const char* strategy = "DBC") {
   Mesh mesh = skin;
-  place_hexahedra(mesh);
+  place_hexahedra(mesh, strategy);
   return expect_placed(skin, mesh);
 }
 
@@ -142,10 +142,18 @@ TEST(PlaceHexahedra, GoesOnBesideEdgesWithoutLength) {
   EXPECT_GT(share(skin), 0.8);
 }
 
+TEST(PlaceHexahedra, ComparesStrategies) {
+  const Mesh ball = skin_of_cube({10, 10, 10}, to_ball);
+  const double cubes = share(ball), raw = share(ball, "DB"), tetrahedra = share(ball, "FBC");
+  EXPECT_GT(cubes, raw);
+  EXPECT_GT(raw, tetrahedra);
+  EXPECT_GT(tetrahedra, 0.02);
+}
+
 TEST(PlaceHexahedra, GivesTheSameTwice) {
   Mesh first = skin_of_cube({6, 6, 6}, to_ball), second = first;
-  place_hexahedra(first);
-  place_hexahedra(second);
+  place_hexahedra(first, "DBC");
+  place_hexahedra(second, "DBC");
   EXPECT_EQ(first.points, second.points);
   EXPECT_EQ(first.hexahedra, second.hexahedra);
 }
