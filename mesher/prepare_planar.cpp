@@ -36,6 +36,20 @@ namespace {
 /// above rounding of the coordinates, and far below any feature that a mesh could show.
 constexpr double kGradientStep = 1e-6;
 
+/// Sets background and size of a domain whose lines are kept. `own` makes the size in place of a missing
+/// base.
+void set_kept_size(const SizeSpec& spec, const PlanarDomain& domain, MeshingSetup& p,
+                   const std::function<std::shared_ptr<const SizeField>()>& own) {
+  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
+  p.size.field = base_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings, own);
+  if (!spec.named.empty()) {
+    const NamedParts parts(domain);
+    warn_of_ineffective_sizes(spec.named, parts, *p.size.field, p.warnings);
+    p.size.field = finer_near(p.size.field, parts.spots(spec.named));
+  }
+  if (spec.gradation > 0) p.size.field = limit_gradation(p.size.field, p.plane.background, spec.gradation);
+}
+
 PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, MeshingSetup& p) {
   const Mesh& mesh = model.mesh;
   if (mesh.lines.empty())
@@ -45,16 +59,8 @@ PlanarDomain prepare_lines(const MeshProblem& problem, const LineModel& model, M
         fmt::format("{}: {} triangles and {} quads are left out: only lines count as boundary", model.source,
                     mesh.triangles.size(), mesh.quads.size()));
   PlanarDomain domain = make_named_domain(mesh, model.surfaces, model.source);
-  const SizeSpec& spec = problem.size;
-  p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
-  p.size.field = base_size(spec, {Box<Vec3>::around(domain.boundary.points)}, p.warnings,
-                           [&] { return make_boundary_size(p.plane.background, domain.boundary); });
-  if (!spec.named.empty()) {
-    const NamedParts parts(domain);
-    warn_of_ineffective_sizes(spec.named, parts, *p.size.field, p.warnings);
-    p.size.field = finer_near(p.size.field, parts.spots(spec.named));
-  }
-  if (spec.gradation > 0) p.size.field = limit_gradation(p.size.field, p.plane.background, spec.gradation);
+  set_kept_size(problem.size, domain, p,
+                [&] { return make_boundary_size(p.plane.background, domain.boundary); });
   if (has_single_points(mesh)) {
     domain = make_named_domain(mesh, model.surfaces, model.source, p.size.field.get());
     p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
@@ -68,15 +74,11 @@ PlanarDomain prepare_given(const MeshProblem& problem, const GivenMesh& model, M
   p.warnings.insert(p.warnings.end(), model.notes.begin(), model.notes.end());
   GivenDomain domain = make_given_domain(model);
   p.warnings.insert(p.warnings.end(), domain.warnings.begin(), domain.warnings.end());
-  p.plane.background = std::make_shared<BackgroundMesh>(domain.domain.patches);
-  p.size.field = base_size(problem.size, {Box<Vec3>::around(domain.domain.boundary.points)}, p.warnings,
-                           [&]() -> std::shared_ptr<const SizeField> {
-                             if (problem.size.from_boundary)
-                               return make_boundary_size(p.plane.background, edges_of_patches(domain.domain));
-                             return make_nodal_size(model.mesh, sizes_of_elements(model.mesh, model.source));
-                           });
-  if (problem.size.gradation > 0)
-    p.size.field = limit_gradation(p.size.field, p.plane.background, problem.size.gradation);
+  set_kept_size(problem.size, domain.domain, p, [&]() -> std::shared_ptr<const SizeField> {
+    if (problem.size.from_boundary)
+      return make_boundary_size(p.plane.background, edges_of_patches(domain.domain));
+    return make_nodal_size(model.mesh, sizes_of_elements(model.mesh, model.source));
+  });
   for (const std::string& line : odd_boundaries(domain.domain))
     p.warnings.push_back({"regions with an odd number of boundary edges", 0, line});
   given = std::move(domain.elements);

@@ -13,10 +13,12 @@
 #include <utility>
 
 #include "base/box_tree.h"
+#include "base/disjoint_sets.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/nearest_triangle.h"
+#include "geometry/mesh/triangle_measures.h"
 #include "geometry/patches/surface_curves.h"
 #include "geometry/surface/triangle_repair.h"
 #include "geometry/surface/triangulated_model.h"
@@ -48,15 +50,13 @@ double least_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& up) 
   return least;
 }
 
-using Halves = std::array<std::array<int, 3>, 2>;  ///< corners of a quad
+}  // namespace
 
-/// By the diagonal that leaves the better worst angle, if both are free; turned over where neither leaves a
-/// good one.
-std::pair<Halves, double> halves_in_space(const std::array<Vec3, 4>& p, bool first_is_free,
-                                          bool second_is_free) {
-  constexpr Halves kFirst{{{0, 1, 2}, {0, 2, 3}}}, kSecond{{{0, 1, 3}, {1, 2, 3}}};
+std::pair<QuadHalves, double> halves_of(const std::array<Vec3, 4>& p, bool first_is_free,
+                                        bool second_is_free) {
+  constexpr QuadHalves kFirst{{{0, 1, 2}, {0, 2, 3}}}, kSecond{{{0, 1, 3}, {1, 2, 3}}};
   const Vec3 up = cross(p[2] - p[0], p[3] - p[1]);
-  const auto worst = [&](const Halves& halves) {
+  const auto worst = [&](const QuadHalves& halves) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [a, b, c] : halves) least = std::min(least, least_angle(p[a], p[b], p[c], up));
     return least;
@@ -65,6 +65,8 @@ std::pair<Halves, double> halves_in_space(const std::array<Vec3, 4>& p, bool fir
   const bool takes_first = first_is_free == second_is_free ? first >= second : first_is_free;
   return takes_first ? std::pair{kFirst, first} : std::pair{kSecond, second};
 }
+
+namespace {
 
 /// Refuses what no word can begin from, element by element.
 void check_given_elements(const GivenMesh& given) {
@@ -125,6 +127,7 @@ void refuse_hanging_nodes(const GivenMesh& given, std::span<const HalfEdge> side
 /// Lines that are edges, once each, and points of elements. Tells of what goes.
 void drop_what_no_element_has(const GivenMesh& given, std::span<const HalfEdge> sides, Mesh& mesh,
                               std::vector<Warning>& warnings) {
+  mesh.order = 1, mesh.line_nodes.clear(), mesh.quad_nodes.clear();
   std::set<std::pair<int, int>> seen;
   const std::size_t gone = keep_lines(mesh, [&](std::size_t l) {
     const auto [a, b] = mesh.lines[l];
@@ -243,82 +246,93 @@ class BadQuadOpening {
   std::optional<NearestTriangle> facets_;
 };
 
-/// The elements as triangles, and what these are of them.
-class Triangulation {
- public:
-  Triangulation(const GivenMesh& given, const Mesh& elements) : source_(given.source), mesh_(elements) {
-    mesh_.triangles.clear();
-    mesh_.triangle_region.clear();
-    mesh_.quads.clear();
-    mesh_.quad_region.clear();
-    for (std::size_t t = 0; t < elements.triangles.size(); ++t) {
-      const auto& v = elements.triangles[t];
-      const Vec3 &a = mesh_.points[v[0]], &b = mesh_.points[v[1]], &c = mesh_.points[v[2]];
-      if (!(least_angle(a, b, c, cross(b - a, c - a)) > kFlatAngle)) refuse_element(given, a, "has no area");
-      add({0, 1, 2}, v, elements.triangle_region[t]);
-      n_corners_.push_back(3);
-    }
-    const std::vector<HalfEdge> sides = sorted_half_edges(elements);
-    std::set<std::pair<int, int>> diagonals;
-    for (std::size_t q = 0; q < elements.quads.size(); ++q) {
-      const auto& v = elements.quads[q];
-      const std::array<Vec3, 4> p{mesh_.points[v[0]], mesh_.points[v[1]], mesh_.points[v[2]],
-                                  mesh_.points[v[3]]};
+/// The elements of a mesh as triangles, on the same points.
+struct Triangulation {
+  Mesh mesh;
+  std::vector<int> element;                 ///< as in GivenSurface
+  std::vector<std::array<int, 4>> corners;  ///< as in GivenSurface
+};
+
+/// In a plane elements need no area.
+Triangulation triangulate(const GivenMesh& given, const Mesh& elements, bool in_plane) {
+  Triangulation fine{lines_of(elements), {}, {}};
+  Mesh& mesh = fine.mesh;
+  const auto add = [&](const std::array<int, 3>& triangle, int element) {
+    mesh.triangles.push_back(triangle);
+    mesh.triangle_region.push_back(region_of(elements, element));
+    fine.element.push_back(element);
+  };
+  const std::vector<HalfEdge> sides = sorted_half_edges(elements);
+  std::set<std::pair<int, int>> diagonals;
+  for_each_element(elements, [&](int element, const auto& v) {
+    const auto at = corners_of(elements, v);
+    double angle = 0;
+    fine.corners.push_back({-1, -1, -1, -1});
+    std::ranges::copy(v, fine.corners.back().begin());
+    if constexpr (at.size() == 3) {
+      angle = least_angle(at[0], at[1], at[2], area_vector(at));
+      add(v, element);
+    } else {
       const auto is_free = [&](int k) {
         return sides_of_edge(sides, v[k], v[k + 2]).empty() &&
                !diagonals.contains(std::minmax({v[k], v[k + 2]}));
       };
-      const auto [halves, angle] = halves_in_space(p, is_free(0), is_free(1));
-      if (!(std::abs(angle) > kFlatAngle)) refuse_element(given, p[0], "has no area");
+      const auto [halves, worst] = halves_of(at, is_free(0), is_free(1));
+      angle = std::abs(worst);
       diagonals.insert(std::minmax({v[halves[1][0]], v[halves[0][2]]}));
-      for (const auto& half : halves) add(half, v, elements.quad_region[q]);
-      n_corners_.push_back(4);
+      for (const auto& [a, b, c] : halves) add({v[a], v[b], v[c]}, element);
     }
-  }
+    if (!in_plane && !(angle > kFlatAngle)) refuse_element(given, at[0], "has no area");
+  });
+  return fine;
+}
 
-  /// Neighbors agree afterwards; elements may run either way round.
-  void turn() {
-    const std::vector<std::array<int, 3>> before = mesh_.triangles;
-    std::vector<Warning> turned;
-    orient_triangles(mesh_, source_, turned);
-    for (std::size_t t = 0; t < before.size(); ++t)
-      if (mesh_.triangles[t][1] != before[t][1]) {
-        is_turned_[t] = 1;
-        std::swap(corner_of_[t][1], corner_of_[t][2]);
-      }
-  }
+/// Turns the pieces of a mesh in a plane so that their areas are positive.
+void face_upwards(Mesh& mesh) {
+  DisjointSets pieces(mesh.triangles.size());
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> edge) {
+    if (edge.size() == 2) pieces.join(edge[0].element, edge[1].element);
+  });
+  const std::vector<int> piece = pieces.roots();
+  std::vector<double> area(piece.size(), 0);
+  for (std::size_t t = 0; t < piece.size(); ++t) area[piece[t]] += area_vector(mesh, t).z;
+  for (std::size_t t = 0; t < piece.size(); ++t)
+    if (area[piece[t]] < 0) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+}
 
-  const Mesh& mesh() const { return mesh_; }
-  const std::vector<int>& element() const { return element_; }
-  /// See GivenSurface. `fine` has the same triangles, perhaps on other points.
-  std::vector<std::array<int, 4>> corners_in(const Mesh& fine) const {
-    std::vector<std::array<int, 4>> corners(n_corners_.size(), {-1, -1, -1, -1});
-    for (std::size_t t = 0; t < element_.size(); ++t)
-      for (int k = 0; k < 3; ++k) corners[element_[t]][corner_of_[t][k]] = fine.triangles[t][k];
-    for (std::size_t t = 0; t < element_.size(); ++t) {
-      if (!is_turned_[t] || (t > 0 && element_[t] == element_[t - 1])) continue;
-      auto& v = corners[element_[t]];
-      std::reverse(v.begin(), v.begin() + n_corners_[element_[t]]);
+/// Neighbors agree afterwards; elements may run either way round.
+void turn(Triangulation& fine, const std::string& source, bool in_plane) {
+  const std::vector<std::array<int, 3>> before = fine.mesh.triangles;
+  std::vector<Warning> turned;
+  orient_triangles(fine.mesh, source, turned);
+  if (in_plane) face_upwards(fine.mesh);
+  for (std::size_t t = 0; t < before.size(); ++t) {
+    if (fine.mesh.triangles[t] == before[t] || (t > 0 && fine.element[t] == fine.element[t - 1])) continue;
+    auto& v = fine.corners[fine.element[t]];
+    std::reverse(v.begin(), v.end() - (v[3] < 0 ? 1 : 0));
+  }
+}
+
+/// Returns the surface of elements that were checked.
+GivenSurface surface_of(const GivenMesh& given, const Mesh& elements, double feature_angle, bool in_plane) {
+  Triangulation made = triangulate(given, elements, in_plane);
+  turn(made, given.source, in_plane);
+  TriangulatedOptions options;
+  options.source = given.source;
+  options.feature_angle = feature_angle;
+  KeptModel kept = make_kept_model(made.mesh, made.element, options);
+  GivenSurface surface{std::move(kept.model),       std::move(made.element),      std::move(made.corners),
+                       std::move(kept.given_curve), std::move(kept.given_region), {}};
+  const Mesh& fine = surface.model.fine;
+  surface.given_point.resize(fine.points.size());
+  for (std::size_t t = 0; t < fine.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int point = made.mesh.triangles[t][k], copy = fine.triangles[t][k];
+      surface.given_point[copy] = point;
+      std::ranges::replace(surface.corners[surface.element[t]], point, copy);
     }
-    return corners;
-  }
-
- private:
-  void add(const std::array<int, 3>& corners, const auto& v, int region) {
-    mesh_.triangles.push_back({v[corners[0]], v[corners[1]], v[corners[2]]});
-    mesh_.triangle_region.push_back(region);
-    element_.push_back(static_cast<int>(n_corners_.size()));
-    corner_of_.push_back(corners);
-    is_turned_.push_back(0);
-  }
-
-  const std::string& source_;
-  Mesh mesh_;
-  std::vector<int> element_;                   ///< of each triangle
-  std::vector<std::array<int, 3>> corner_of_;  ///< of each triangle, which corners of its element it has
-  std::vector<char> is_turned_;                ///< by triangle
-  std::vector<int> n_corners_;                 ///< of each element
-};
+  return surface;
+}
 
 }  // namespace
 
@@ -330,22 +344,59 @@ GivenSurface make_given_surface(const GivenMesh& given, double feature_angle) {
   std::vector<Warning> warnings;
   drop_what_no_element_has(given, sides, mesh, warnings);
   BadQuadOpening(feature_angle, mesh).run(given.source, warnings);
-  Triangulation fine(given, mesh);
-  fine.turn();
-
-  GivenSurface surface;
-  TriangulatedOptions options;
-  options.source = given.source;
-  options.feature_angle = feature_angle;
-  KeptModel kept = make_kept_model(fine.mesh(), fine.element(), options);
-  surface.model = std::move(kept.model);
-  surface.model.fine.unit = given.mesh.unit;
+  GivenSurface surface = surface_of(given, mesh, feature_angle, false);
   surface.model.warnings.insert(surface.model.warnings.begin(), warnings.begin(), warnings.end());
-  surface.given_curve = std::move(kept.given_curve);
-  surface.given_region = std::move(kept.given_region);
-  surface.corners = fine.corners_in(surface.model.fine);
-  surface.element = fine.element();
   return surface;
+}
+
+GivenSurface make_flat_surface(GivenMesh& given) {
+  constexpr double kNoFeatures = 180;
+  check_given_elements(given);
+  std::vector<Warning> warnings;
+  const std::vector<HalfEdge> sides = sorted_half_edges(given.mesh);
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
+    if (edge.size() > 2)
+      throw InputError(fmt::format("{}: the edge from {} to {} is in {} elements: expected at most two",
+                                   given.source, text_of_place(given.mesh.points[edge[0].lo]),
+                                   text_of_place(given.mesh.points[edge[0].hi]), edge.size()));
+  });
+  drop_what_no_element_has(given, sides, given.mesh, warnings);
+  GivenSurface surface = surface_of(given, given.mesh, kNoFeatures, true);
+  surface.model.warnings = std::move(warnings);
+  return surface;
+}
+
+Mesh lines_of(const Mesh& mesh) {
+  Mesh lines;
+  lines.points = mesh.points;
+  lines.lines = mesh.lines;
+  lines.line_curve = mesh.line_curve;
+  lines.curves = mesh.curves;
+  lines.regions = mesh.regions;
+  lines.named_points = mesh.named_points;
+  lines.unit = mesh.unit;
+  return lines;
+}
+
+void add_elements(const GivenSurface& surface, std::span<const int> fine_triangles,
+                  std::span<const std::array<int, 3>> triangles, std::span<const int> point,
+                  QuadPatch& patch) {
+  // Both halves of a quad are here.
+  std::map<int, std::array<int, 4>> elements;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const int element = surface.element[fine_triangles[t]];
+    auto& v = elements.try_emplace(element, std::array{-1, -1, -1, -1}).first->second;
+    for (int k = 0; k < 3; ++k) {
+      const auto& corners = surface.corners[element];
+      const int corner = surface.model.fine.triangles[fine_triangles[t]][k];
+      v[std::ranges::find(corners, corner) - corners.begin()] = point[triangles[t][k]];
+    }
+  }
+  for (const auto& [element, v] : elements)
+    if (v[3] < 0)
+      patch.triangles.push_back({v[0], v[1], v[2]});
+    else
+      patch.quads.push_back(v);
 }
 
 QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch, std::vector<Vec3>& inside) {
@@ -363,21 +414,7 @@ QuadPatch elements_within(const GivenSurface& surface, const SurfacePatch& patch
     result.points.push_back(flat.points[i]);
     inside.push_back(surface.model.fine.points[patch.map.fine_node[i]]);
   }
-  // Both halves of a quad are here.
-  std::map<int, std::array<int, 4>> elements;
-  for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
-    const int element = surface.element[patch.map.fine_triangle[t]];
-    auto& v = elements.try_emplace(element, std::array{-1, -1, -1, -1}).first->second;
-    for (const int i : flat.triangles[t]) {
-      const auto& corners = surface.corners[element];
-      v[std::ranges::find(corners, patch.map.fine_node[i]) - corners.begin()] = point[i];
-    }
-  }
-  for (const auto& [element, v] : elements)
-    if (v[3] < 0)
-      result.triangles.push_back({v[0], v[1], v[2]});
-    else
-      result.quads.push_back(v);
+  add_elements(surface, patch.map.fine_triangle, flat.triangles, point, result);
   return result;
 }
 

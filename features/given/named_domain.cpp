@@ -10,6 +10,7 @@
 
 #include "base/predicates.h"
 #include "features/embedded/embedded_pieces.h"
+#include "features/given/given_surface.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/planar/domain_builder.h"
@@ -23,46 +24,27 @@ Vec2 flat(const Vec3& p) { return {p.x, p.y}; }
 
 /// For each face of the lines the region of the elements along it: kNoRegion without elements,
 /// kSeveralRegions when they differ.
-class RegionsInside {
- public:
-  RegionsInside(const Mesh& mesh, const Mesh& lines, const Arrangement& arrangement)
-      : mesh_(mesh), lines_(lines), arrangement_(arrangement), region_(arrangement.faces.size(), kNoRegion) {
-    for (std::size_t l = 0; l < lines.lines.size(); ++l)
-      line_at_[std::minmax(lines.lines[l][0], lines.lines[l][1])] = static_cast<int>(l);
-    add(mesh.triangles, mesh.triangle_region);
-    add(mesh.quads, mesh.quad_region);
-  }
-  int operator[](std::size_t face) const { return region_[face]; }
-
- private:
-  template <std::size_t N>
-  void add(const std::vector<std::array<int, N>>& elements, const std::vector<int>& region) {
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      for (std::size_t k = 0; k < N; ++k) {
-        const auto at = line_at_.find(std::minmax(elements[e][k], elements[e][(k + 1) % N]));
-        if (at == line_at_.end()) continue;
-        const int face = arrangement_.face_of[2 * at->second + !is_left(elements[e], at->second)];
-        if (face < 0) continue;
-        int& inside = region_[face];
-        inside = inside == kNoRegion || inside == region[e] ? region[e] : kSeveralRegions;
-      }
-  }
-
-  /// Whether the element lies to the left of a line.
-  template <std::size_t N>
-  bool is_left(const std::array<int, N>& element, int line) const {
+std::vector<int> regions_inside(const Mesh& mesh, const Mesh& lines, const Arrangement& arrangement) {
+  std::vector<int> region(arrangement.faces.size(), kNoRegion);
+  std::map<std::pair<int, int>, int> line_at;
+  for (std::size_t l = 0; l < lines.lines.size(); ++l)
+    line_at[std::minmax(lines.lines[l][0], lines.lines[l][1])] = static_cast<int>(l);
+  for_each_element(mesh, [&](int element, const auto& v) {
     Vec2 centre{0, 0};
-    for (const int v : element) centre += (1.0 / N) * flat(mesh_.points[v]);
-    const auto [a, b] = lines_.lines[line];
-    return orient2d(flat(mesh_.points[a]), flat(mesh_.points[b]), centre) > 0;
-  }
-
-  const Mesh& mesh_;
-  const Mesh& lines_;
-  const Arrangement& arrangement_;
-  std::map<std::pair<int, int>, int> line_at_;
-  std::vector<int> region_;
-};
+    for (const int i : v) centre += (1.0 / static_cast<double>(v.size())) * flat(mesh.points[i]);
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const auto at = line_at.find(std::minmax(v[k], v[(k + 1) % v.size()]));
+      if (at == line_at.end()) continue;
+      const auto [a, b] = lines.lines[at->second];
+      const bool is_left = orient2d(flat(mesh.points[a]), flat(mesh.points[b]), centre) > 0;
+      const int face = arrangement.face_of[2 * at->second + (is_left ? 0 : 1)];
+      if (face < 0) continue;
+      const int here = region_of(mesh, element);
+      region[face] = region[face] == kNoRegion || region[face] == here ? here : kSeveralRegions;
+    }
+  });
+  return region;
+}
 
 /// For each face the tags of the curves that bound it.
 std::vector<std::vector<int>> bounding_curves(const Mesh& lines, const Arrangement& arrangement) {
@@ -79,7 +61,7 @@ std::vector<std::vector<int>> bounding_curves(const Mesh& lines, const Arrangeme
 FaceNames groups_of_faces(const Mesh& mesh, const Mesh& lines, const Arrangement& arrangement,
                           const DeclaredSurfaces& surfaces) {
   FaceNames groups(arrangement.faces.size());
-  const RegionsInside regions(mesh, lines, arrangement);
+  const std::vector<int> regions = regions_inside(mesh, lines, arrangement);
   const auto bounding = bounding_curves(lines, arrangement);
   for (std::size_t f = 0; f < groups.size(); ++f) {
     const int region = regions[f];
@@ -96,37 +78,22 @@ FaceNames groups_of_faces(const Mesh& mesh, const Mesh& lines, const Arrangement
   return groups;
 }
 
-using Interfaces = std::map<std::pair<int, int>, std::vector<std::array<int, 2>>>;
-
-/// Edges between two regions, by these.
-Interfaces edges_between_regions(const Mesh& mesh) {
-  Interfaces interfaces;
-  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
-    if (sides.size() != 2) return;
-    const std::pair<int, int> regions =
-        std::minmax(region_of(mesh, sides[0].element), region_of(mesh, sides[1].element));
-    if (regions.first != regions.second) interfaces[regions].push_back({sides[0].lo, sides[0].hi});
-  });
-  return interfaces;
-}
-
 /// The lines of the mesh, and the lines that it lacks where they part its regions. Writers leave them out for
 /// programs that take none inside a mesh.
-Mesh lines_of(const Mesh& mesh, const std::string& source) {
-  Mesh lines;
-  lines.points = mesh.points;
-  lines.lines = mesh.lines;
-  lines.line_curve = mesh.line_curve;
-  lines.curves = mesh.curves;
-  lines.named_points = mesh.named_points;
+Mesh all_lines_of(const Mesh& mesh, const std::string& source) {
+  Mesh lines = lines_of(mesh);
   std::set<std::pair<int, int>> known;
   for (const auto& [a, b] : mesh.lines) known.insert(std::minmax(a, b));
   int last_tag = 0;
   for (const Entity& curve : mesh.curves) last_tag = std::max(last_tag, curve.tag);
-  Interfaces interfaces = edges_between_regions(mesh);
-  for (auto& [regions, edges] : interfaces) {
-    std::erase_if(edges, [&](const auto& edge) { return known.contains({edge[0], edge[1]}); });
-    if (edges.empty()) continue;
+  std::map<std::pair<int, int>, std::vector<std::array<int, 2>>> interfaces;  // edges by both regions
+  for_each_edge(sorted_half_edges(mesh), [&](std::span<const HalfEdge> sides) {
+    if (sides.size() != 2 || known.contains({sides[0].lo, sides[0].hi})) return;
+    const auto [one, other] =
+        std::minmax({region_of(mesh, sides[0].element), region_of(mesh, sides[1].element)});
+    if (one != other) interfaces[{one, other}].push_back({sides[0].lo, sides[0].hi});
+  });
+  for (const auto& [regions, edges] : interfaces) {
     lines.lines.insert(lines.lines.end(), edges.begin(), edges.end());
     lines.line_curve.resize(lines.lines.size(), static_cast<int>(lines.curves.size()));
     lines.curves.push_back({++last_tag, {}});
@@ -185,7 +152,7 @@ bool has_single_points(const Mesh& mesh) { return !single_points(mesh).empty(); 
 
 PlanarDomain make_named_domain(const Mesh& mesh, const DeclaredSurfaces& surfaces, const std::string& source,
                                const SizeField* size) {
-  Mesh lines = lines_of(mesh, source);
+  Mesh lines = all_lines_of(mesh, source);
   const std::vector<int> single = size != nullptr ? single_points(lines) : std::vector<int>{};
   const int dangling = single.empty() ? -1 : add_dangling_edges(lines, single, *size, source);
   const BoundaryNames names = names_of_curves(lines, source);

@@ -256,6 +256,14 @@ TEST(GivenMeshes, WhatGetsWorseIsTakenWhereItIsAskedFor) {
   EXPECT_TRUE(result.warnings.empty());
 }
 
+TEST(GivenMeshes, SizesByNameHold) {
+  MeshProblem problem = problem_of(GivenMesh{given_grid(10)});
+  problem.size.named = {{.name = "between", .size = 0.03}};
+  const MeshResult result = mesh(problem, "O");
+  int hint = -1;
+  EXPECT_NEAR(result.prepared->size.field->at({0.5, 0.5, 3}, hint), 0.03, 1e-9);
+}
+
 TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   const Mesh grid = given_grid(4);
   expect_input_error([&] { improve_given(halved(grid, 2), "CO"); }, {"triangles", "B"});
@@ -285,6 +293,15 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
   pinched.triangles = {{12, 25, 26}, {12, 26, 27}, {12, 27, 25}};
   pinched.triangle_region = {0, 0, 0};
   expect_input_error([&] { improve_given(pinched, "CO"); }, {"cover each other"});
+
+  Mesh island = grid;  // a second grid lies on the first one, and shares no node
+  for (const Vec3& p : grid.points) island.points.push_back({0.1 + p.x / 2, 0.1 + p.y / 2, 3});
+  for (auto quad : grid.quads) {
+    for (int& v : quad) v += static_cast<int>(grid.points.size());
+    island.quads.push_back(quad);
+  }
+  island.quad_region.resize(island.quads.size(), 0);
+  expect_input_error([&] { improve_given(island, "CO"); }, {"cover each other"});
 
   // A hole of which one corner was drawn over the opposite side.
   Mesh inside_out = halved(given_grid(6), 2);
