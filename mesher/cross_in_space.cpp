@@ -14,7 +14,7 @@ namespace delquad {
 namespace {
 
 CrossInSpace in_plane(const MeshingSetup& prepared) {
-  return [&](int, const Vec3& x, double reach, int& hint) -> std::optional<std::array<Vec3, 2>> {
+  return [&](const Vec3& x, double reach, int& hint) -> std::optional<std::array<Vec3, 2>> {
     const BackgroundMesh& background = *prepared.plane.background;
     const auto [t, b] = background.locate({x.x, x.y}, hint);
     const TriPatch& tri = background.triangles();
@@ -28,33 +28,33 @@ CrossInSpace in_plane(const MeshingSetup& prepared) {
   };
 }
 
-/// The maps of a patch, in space.
-struct PatchInSpace {
-  std::size_t patch;
-  NearestTriangle nearest;
+/// All maps of a surface, and the places of their triangles in space.
+struct Maps {
+  std::vector<std::array<std::size_t, 2>> origins;  ///< of each triangle the patch and its number there
+  std::unique_ptr<const NearestTriangle> nearest;
 };
 
 CrossInSpace on_surface(const MeshingSetup& prepared) {
+  const auto maps = std::make_shared<Maps>();
   const SurfaceSetup& surface = *prepared.surface;
-  const auto& fine = surface.model.fine.points;
-  const auto of_region =
-      std::make_shared<std::vector<std::vector<PatchInSpace>>>(prepared.boundary.regions.size());
+  std::vector<std::array<int, 3>> triangles;
   for (std::size_t p = 0; p < prepared.patches.size(); ++p) {
     const FlatPatch& map = surface.domain.patches[p].map;
-    std::vector<Vec3> points;
-    for (const int node : map.fine_node) points.push_back(fine[node]);
-    (*of_region)[prepared.patches[p].region].push_back({p, {std::move(points), map.flat.triangles}});
+    for (std::size_t t = 0; t < map.flat.triangles.size(); ++t) {
+      const auto& v = map.flat.triangles[t];
+      triangles.push_back({map.fine_node[v[0]], map.fine_node[v[1]], map.fine_node[v[2]]});
+      maps->origins.push_back({p, t});
+    }
   }
-  return [&, of_region](int region, const Vec3& x, double reach, int&) -> std::optional<std::array<Vec3, 2>> {
-    NearestTriangle::Found found{.distance = reach};
-    std::size_t patch = 0;
-    if (region < static_cast<int>(of_region->size()))
-      for (const PatchInSpace& one : (*of_region)[region])
-        if (const auto nearer = one.nearest.find(x, found.distance); nearer.triangle >= 0)
-          found = nearer, patch = one.patch;
-    if (found.triangle < 0) return std::nullopt;
+  if (triangles.empty()) return nullptr;
+  maps->nearest = std::make_unique<NearestTriangle>(surface.model.fine.points, std::move(triangles));
+  return [&, maps](const Vec3& x, double reach, int& hint) -> std::optional<std::array<Vec3, 2>> {
+    const NearestTriangle::Found found = maps->nearest->find_from(hint, x);
+    if (found.triangle < 0 || !(found.distance <= reach)) return std::nullopt;
+    hint = found.triangle;
+    const auto [patch, t] = maps->origins[found.triangle];
     const FlatPatch& map = surface.domain.patches[patch].map;
-    const auto& v = map.flat.triangles[found.triangle];
+    const auto& v = map.flat.triangles[t];
     const auto& at = map.flat.points;
     const std::array<double, 3>& b = found.weights;
     int anywhere = -1;
@@ -64,8 +64,9 @@ CrossInSpace on_surface(const MeshingSetup& prepared) {
     // Coordinates by two sides of the triangle, which are the same in space.
     const Vec2 p = at[v[1]] - at[v[0]], q = at[v[2]] - at[v[0]];
     const double area = cross(p, q);
-    const Vec3 &a = fine[map.fine_node[v[0]]], side = fine[map.fine_node[v[1]]] - a,
-               other = fine[map.fine_node[v[2]]] - a;
+    const auto& points = surface.model.fine.points;
+    const Vec3 &a = points[map.fine_node[v[0]]], side = points[map.fine_node[v[1]]] - a,
+               other = points[map.fine_node[v[2]]] - a;
     const auto in_space = [&](const Vec2& d) {
       return (cross(d, q) / area) * side + (cross(p, d) / area) * other;
     };
@@ -105,7 +106,7 @@ WantedAt wanted_at(const Prepared& prepared, const Mesh& mesh) {
         continue;
       }
       const double size = wanted.size[i] = prepared->size.field->at(x, in_size);
-      if (const auto ways = cross ? cross(region[i], x, size, in_field) : std::nullopt) {
+      if (const auto ways = cross ? cross(x, size, in_field) : std::nullopt) {
         first = size / norm((*ways)[0]) * (*ways)[0];
         second = size / norm((*ways)[1]) * (*ways)[1];
       }

@@ -13,10 +13,10 @@
 
 namespace delquad {
 
-/// Returns two directions of a cross field in space at the place of a region nearest to x; nothing if that is
-/// farther than `reach`. `hint` is as in SizeField::at.
+/// Returns two directions of a cross field in space at the place nearest to x; nothing if that is farther
+/// than `reach`. `hint` is as in SizeField::at.
 using CrossInSpace =
-    std::function<std::optional<std::array<Vec3, 2>>(int region, const Vec3& x, double reach, int& hint)>;
+    std::function<std::optional<std::array<Vec3, 2>>(const Vec3& x, double reach, int& hint)>;
 
 /// Returns the mean angle, in degrees, between inner edges of quads and the nearest direction of the field at
 /// their middles. It is 0 for perfect alignment, 22.5 for random edges, and NaN without such edges. `sides`
