@@ -58,6 +58,9 @@ int volume_command(const VolumeArguments& arguments) {
   check_cell_format(arguments.output, arguments.msh);
   if (arguments.model.empty() == arguments.from.empty())
     throw InputError("expected a model, or --from with a file of its quads");
+  if (const VolumeOptions& options = arguments.volume;
+      options.cells != VolumeCells::kHexDominant && options.strategy != VolumeOptions().strategy)
+    refuse("--strategy {} goes with --cells hex-dominant only", options.strategy);
   check_distinct({{"the model", arguments.model},
                   {"--from", arguments.from},
                   {"-o", arguments.output},
