@@ -87,7 +87,7 @@ Mesh shaken_in_space(Mesh mesh, double by, const std::function<bool(int)>& moves
 
 using Segment3 = std::set<std::array<double, 3>>;
 
-std::set<std::pair<int, Segment3>> lines_of(const Mesh& mesh) {
+std::set<std::pair<int, Segment3>> lines_by_curve(const Mesh& mesh) {
   std::set<std::pair<int, Segment3>> lines;
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     Segment3 ends;
@@ -100,7 +100,7 @@ std::set<std::pair<int, Segment3>> lines_of(const Mesh& mesh) {
 /// Lines to the last bit, edges of one element too; entities; and that all is well.
 void expect_kept_in_space(const Mesh& given, const MeshResult& result) {
   EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
-  EXPECT_EQ(lines_of(result.mesh), lines_of(given));
+  EXPECT_EQ(lines_by_curve(result.mesh), lines_by_curve(given));
   const auto free_edges = [](const Mesh& mesh) {
     Mesh free;
     free.points = mesh.points;
@@ -116,7 +116,7 @@ void expect_kept_in_space(const Mesh& given, const MeshResult& result) {
         free.lines.push_back({edge.first, edge.second});
         free.line_curve.push_back(elements);
       }
-    return lines_of(free);
+    return lines_by_curve(free);
   };
   EXPECT_EQ(free_edges(result.mesh), free_edges(given));
   expect_same_entities(result.mesh.curves, given.curves);
