@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "delquad/model.h"
 
 // This header sweeps quads to hexahedra, fills closed quads with cells, and measures cells. Programs that
 // mesh solids use it.
@@ -88,6 +90,10 @@ enum class VolumeCells {
 struct VolumeOptions {
   VolumeCells cells = VolumeCells::kHexDominant;
   long long max_elements = 50'000'000;
+  /// Layers of hexahedra on the faces `on`, or on all; `fan` and `into` do not count. They end on rows of
+  /// quads of other faces if these look like them, elsewhere by prisms of heights that fall to zero. Heights
+  /// shrink where there is no room, and `notes` tell where.
+  std::optional<LayerSpec> layers = {};
 };
 
 /// Fills closed quads of order 1 with cells. Quads may enclose cavities and several bodies, also with quads
