@@ -16,6 +16,7 @@
 #include "features/volume/find_bodies.h"
 #include "features/volume/layers.h"
 #include "features/volume/place_hexahedra.h"
+#include "features/volume/place_prisms.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/entity_names.h"
@@ -149,6 +150,7 @@ class SkinFiller {
     const auto place_cells = [&](Mesh& rest) {
       if (options_.cells != VolumeCells::kHexDominant) return;
       place_hexahedra(rest);
+      place_prisms(rest);
     };
     if (heights_.empty())
       place_cells(part), lost = fill_around(part);
