@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "base/context.h"
 #include "base/located.h"
@@ -122,20 +121,6 @@ struct ExtrudeArguments {
   int threads = thread_count();
   MshOptions file;
 };
-
-/// Numbers separated by commas.
-std::vector<double> read_list(const std::string& option, const std::string& text, std::size_t count,
-                              const char* example) {
-  std::vector<double> numbers;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
-    const auto value = as_number(part);
-    numbers.push_back(value && std::isfinite(*value) ? *value : std::nan(""));
-  }
-  if (numbers.size() != count || std::ranges::any_of(numbers, [](double x) { return std::isnan(x); }))
-    refuse("{} '{}': expected {} finite numbers, such as {}", option, text, count, example);
-  return numbers;
-}
 
 void require_with(bool given, const char* option, bool allowed, const char* with) {
   if (given && !allowed) refuse("{} goes with {} only", option, with);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/options.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <system_error>
 
 #include "base/located.h"
@@ -90,6 +92,19 @@ void add_criteria(CLI::App& command, std::string& criteria, bool& strict) {
         return text.empty() ? "it is empty: expected a name or a file" : std::string();
       });
   command.add_flag("--strict", strict, "elements beyond the criteria are an error (exit code 5)");
+}
+
+std::vector<double> read_list(const std::string& option, const std::string& text, std::size_t count,
+                              const char* example) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto value = as_number(part);
+    numbers.push_back(value && std::isfinite(*value) ? *value : std::nan(""));
+  }
+  if (numbers.size() != count || std::ranges::any_of(numbers, [](double x) { return std::isnan(x); }))
+    refuse("{} '{}': expected {} finite numbers, such as {}", option, text, count, example);
+  return numbers;
 }
 
 void add_threads(CLI::App& command, int& threads) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,6 +31,10 @@ CLI::Option* add_size(CLI::App& command, std::optional<std::string>& size, const
 void add_data(CLI::App& command, std::filesystem::path& data);
 /// Adds `--criteria` and `--strict`.
 void add_criteria(CLI::App& command, std::string& criteria, bool& strict);
+/// Returns the numbers between commas. Throws InputError, with an example, unless `count` finite ones are
+/// given.
+std::vector<double> read_list(const std::string& option, const std::string& text, std::size_t count,
+                              const char* example);
 void add_threads(CLI::App& command, int& threads);
 void add_max_elements(CLI::App& command, long long& most,
                       const char* help = "refuse sizes that ask for more quads than this");

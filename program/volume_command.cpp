@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "base/context.h"
 #include "base/located.h"
@@ -11,7 +13,10 @@
 #include "delquad/hexahedra.h"
 #include "experiments/console/progress.h"
 #include "geometry/mesh/cell_shapes.h"
+#include "geometry/mesh/entity_names.h"
+#include "geometry/mesh/half_edges.h"
 #include "io/cases/case_file.h"
+#include "io/entity_names.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_io.h"
 #include "program/commands.h"
@@ -25,15 +30,76 @@ namespace {
 struct VolumeArguments : MeshArguments {
   std::filesystem::path from;  ///< file of a skin; empty: the skin of the model
   VolumeOptions volume;
+  std::string layers;  ///< "FIRST,GROWTH,NUMBER"; empty: none
+  std::vector<std::string> layers_on;
 };
 
+// As the keys of layers in model files.
+constexpr int kMostLayers = 10'000;
+constexpr double kMostFan = 120;  // degrees
+
+std::optional<LayerSpec> read_layers(const VolumeArguments& arguments) {
+  if (arguments.layers.empty()) {
+    if (!arguments.layers_on.empty()) throw InputError("--layers-on goes with --layers only");
+    return {};
+  }
+  const auto numbers = read_list("--layers", arguments.layers, 3, "0.1,1.2,5: first height, growth, number");
+  const double first = numbers[0], growth = numbers[1], number = numbers[2];
+  if (!(first > 0)) refuse("--layers: a first height of {}: expected a length above 0", first);
+  if (!(growth >= 1)) refuse("--layers: a growth of {}: expected at least 1", growth);
+  if (!(number >= 1 && number <= kMostLayers) || number != std::floor(number))
+    refuse("--layers: {} layers: expected a whole number from 1 to {}", number, kMostLayers);
+  return LayerSpec{.on = arguments.layers_on,
+                   .first = first,
+                   .growth = growth,
+                   .number = static_cast<int>(number),
+                   .where = "--layers"};
+}
+
+/// Returns the same layers for the other faces, along the curves of the faces with layers.
+LayerSpec beside(const LayerSpec& layers, const Mesh& skin) {
+  std::vector<char> has_layers(skin.regions.size(), 0);
+  for (const std::string& name : layers.on)
+    for (const int r : find_entities(skin.regions, "region", name, layers.where)) has_layers[r] = 1;
+  const std::vector<HalfEdge> sides = sorted_half_edges(skin);
+  std::set<std::string> on, into;
+  for (std::size_t l = 0; l < skin.lines.size(); ++l) {
+    std::set<int> with, without;
+    for (const HalfEdge& side : sides_of_edge(sides, skin.lines[l][0], skin.lines[l][1])) {
+      const int region = region_of(skin, side.element);
+      (has_layers[region] != 0 ? with : without).insert(region);
+    }
+    if (with.empty() || without.empty()) continue;
+    on.insert(tag_label(1, skin.curves[skin.line_curve[l]].tag));
+    for (const int region : without) into.insert(tag_label(2, skin.regions[region].tag));
+  }
+  LayerSpec other = layers;
+  other.on.assign(on.begin(), on.end());
+  other.into.assign(into.begin(), into.end());
+  other.fan = kMostFan;
+  return other;
+}
+
 /// Returns the quads of the model, and tells warnings.
-Mesh mesh_skin(const VolumeArguments& arguments, Progress& progress) {
+Mesh mesh_skin(const VolumeArguments& arguments, const std::optional<LayerSpec>& layers, Progress& progress) {
   Case c = read_model_case(arguments.model);
   set_problem(arguments, c);
   if (c.order > 1) refuse("--order {}: volumes have cells of order 1: expected 1", c.order);
-  MeshResult result = mesh(std::move(c), arguments.pipeline.value_or(arguments.quality),
-                           {.progress = [&](const ProgressReport& report) { progress.step(report.stage); }});
+  const auto make = [&](const Case& of) {
+    return mesh(of, arguments.pipeline.value_or(arguments.quality),
+                {.progress = [&](const ProgressReport& report) { progress.step(report.stage); }});
+  };
+  MeshResult result = make(c);
+  if (layers && !layers->on.empty() && c.layers.empty()) {
+    Case layered = c;
+    layered.layers = {beside(*layers, result.mesh)};
+    try {
+      if (!layered.layers[0].on.empty()) result = make(layered);
+    } catch (const InputError& error) {
+      progress.message(
+          fmt::format("note: layers end by prisms at other faces, which get none: {}", error.what()));
+    }
+  }
   progress.warn(result.warnings);
   return std::move(result.mesh);
 }
@@ -70,10 +136,11 @@ int volume_command(const VolumeArguments& arguments) {
   const std::string name = arguments.from.empty() ? arguments.model.string() : arguments.from.string();
   Progress progress;
   ReadNotes notes;
-  const Mesh skin =
-      arguments.from.empty() ? mesh_skin(arguments, progress) : read_mesh(arguments.from, &notes);
   VolumeOptions options = arguments.volume;
   options.max_elements = arguments.max_elements;
+  options.layers = read_layers(arguments);
+  const Mesh skin = arguments.from.empty() ? mesh_skin(arguments, options.layers, progress)
+                                           : read_mesh(arguments.from, &notes);
   const Mesh cells = located(name, [&] { return fill_skin(skin, options, &notes); });
   for (const std::string& lost : renamed_in_file(arguments.output, cells))
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + lost);
@@ -109,6 +176,12 @@ void add_volume(CLI::App& app, Commands& commands) {
       "--strategy",
       [&strategy = arguments.volume.strategy](const std::string& text) { check_strategy(strategy = text); },
       "of hex-dominant: F or D (points), B (recombination), C (clean-up), O (optimization); default: DBCO");
+  volume->add_option("--layers", arguments.layers,
+                     "FIRST,GROWTH,NUMBER: layers of hexahedra on faces: first height, growth, number");
+  volume
+      ->add_option("--layers-on", arguments.layers_on,
+                   "name of faces with layers; may be repeated; default: all")
+      ->allow_extra_args(false);
   volume->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
   volume->add_option(
       "--element", arguments.msh.element,

@@ -10,12 +10,16 @@
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/hexahedra.h"
+#include "delquad/model.h"
 #include "features/volume/fill_around.h"
 #include "features/volume/fill_void.h"
 #include "features/volume/find_bodies.h"
+#include "features/volume/layers.h"
 #include "features/volume/place_hexahedra.h"
+#include "features/volume/place_prisms.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/entity_names.h"
 #include "metrics/cells.h"
 
 namespace delquad {
@@ -60,14 +64,16 @@ class SkinFiller {
           "thin "
           "parts open",
           show_point(where), faces.size());
+    find_layers();
   }
 
-  Mesh fill() {
+  Mesh fill(ReadNotes* notes) {
     constexpr int kAttempts = 4;
     const Mesh skin = result_;
     for (int attempt = 1; !fill_bodies(attempt == kAttempts); ++attempt) result_ = skin;
     name_volumes();
     orient_faces();
+    if (notes != nullptr) tell_layers(*notes);
     return std::move(result_);
   }
 
@@ -91,6 +97,37 @@ class SkinFiller {
     return true;
   }
 
+  /// Finds the regions with layers, and the heights of these.
+  void find_layers() {
+    if (!options_.layers) return;
+    if (tets_alone())
+      refuse("layers have hexahedra: expected '--cells hex-dominant' or '--cells pyramids-and-tets'");
+    heights_ = layer_heights(*options_.layers);
+    has_layers_.assign(result_.regions.size(), options_.layers->on.empty() ? 1 : 0);
+    for (const std::string& name : options_.layers->on)
+      for (const int r : find_entities(result_.regions, "region", name, options_.layers->where))
+        has_layers_[r] = 1;
+  }
+
+  /// Returns which quads of a body have layers.
+  std::vector<char> layers_of(int body) const {
+    std::vector<char> marks;
+    for (const BodySide& side : bodies_[body]) marks.push_back(has_layers_[result_.quad_region[side.quad]]);
+    return marks;
+  }
+
+  void tell_layers(ReadNotes& notes) const {
+    for (const GrownLayers& grown : grown_) {
+      if (grown.least < 1)
+        notes.push_back(fmt::format("layers are lower where there is no room: {:.2g} of their height at {}",
+                                    grown.least, show_point(grown.least_at)));
+      if (grown.n_bare > 0)
+        notes.push_back(
+            fmt::format("{} get no layers, one at {}: expected lower layers, or other sizes there",
+                        counted(grown.n_bare, "quad"), show_point(grown.bare_at)));
+    }
+  }
+
   /// Adds the cells of a body, or fills `lost` with the sides that fail.
   void fill_body(int body, std::vector<int>& lost) {
     Mesh part;
@@ -110,8 +147,16 @@ class SkinFiller {
       else
         part.quads.push_back(quad);
     }
-    if (options_.cells == VolumeCells::kHexDominant) place_hexahedra(part, options_.strategy);
-    lost = fill_around(part, options_.cells != VolumeCells::kHexDominant || options_.strategy.ends_with('O'));
+    const bool optimizes = options_.cells != VolumeCells::kHexDominant || options_.strategy.ends_with('O');
+    const auto place_cells = [&](Mesh& rest) {
+      if (options_.cells != VolumeCells::kHexDominant) return;
+      place_hexahedra(rest, options_.strategy);
+      place_prisms(rest);
+    };
+    if (heights_.empty())
+      place_cells(part), lost = fill_around(part, optimizes);
+    else
+      lost = fill_with_layers(part, layers_of(body), heights_, place_cells, optimizes, grown_.emplace_back());
     for (int& face : lost) face /= tets_alone() ? 2 : 1;
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
     if (!lost.empty()) return;
@@ -193,6 +238,9 @@ class SkinFiller {
   VolumeOptions options_;
   Mesh result_;
   std::vector<Body> bodies_;
+  std::vector<double> heights_;   ///< of the ends of layers; empty: none
+  std::vector<char> has_layers_;  ///< by region
+  std::vector<GrownLayers> grown_;
   std::vector<Quad> split_;  ///< quads whose first diagonals split them into triangles
 };
 
@@ -208,7 +256,7 @@ VolumeCells volume_cells(const std::string& name) {
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {
   check_strategy(options.strategy);
   check_skin(skin, options.max_elements);
-  const Mesh mesh = SkinFiller(skin, options, notes).fill();
+  const Mesh mesh = SkinFiller(skin, options, notes).fill(notes);
   if (const std::vector<std::string> defects = defects_of_cells(mesh); !defects.empty())
     refuse("the cells are not sound: {}", fmt::join(defects, "; "));
   return mesh;

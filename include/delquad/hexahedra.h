@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "delquad/mesh.h"
+#include "delquad/model.h"
 
 // This header sweeps quads to hexahedra, fills closed quads with cells, and measures cells. Programs that
 // mesh solids use it.
@@ -92,6 +94,10 @@ struct VolumeOptions {
   /// tetrahedra or of cubes along a field of frames. `B` recombines them to hexahedra, `C` fills gaps
   /// between these again, `O` optimizes pyramids and tetrahedra. `C` and `O` may be absent.
   std::string strategy = "DBCO";
+  /// Layers of hexahedra on the faces `on`, or on all; `fan` and `into` do not count. They end on rows of
+  /// quads of other faces if these look like them, elsewhere by prisms of heights that fall to zero. Heights
+  /// shrink where there is no room, and `notes` tell where.
+  std::optional<LayerSpec> layers = {};
 };
 
 /// Returns the kind of a name: "hex-dominant", "pyramids-and-tets" or "tets". Throws InputError for another.

@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <queue>
+#include <utility>
+
+#include "base/cancel.h"
+#include "base/parallel_each.h"
+#include "base/sort_unique.h"
+#include "features/volume/fill_around.h"
+#include "features/volume/fill_void.h"
+#include "geometry/mesh/cell_shapes.h"
+#include "geometry/mesh/nearest_triangle.h"
+#include "metrics/cells.h"
+
+namespace delquad {
+
+namespace {
+
+using Quad = std::array<int, 4>;
+
+/// Most that heights change by length along the skin.
+constexpr double kSlope = 0.5;
+/// Layers end where less of their height is left.
+constexpr double kLeastScale = 0.02;
+/// Most that points between planes move, in heights: between planes 47 degrees apart.
+constexpr double kLongest = 2.5;
+/// Quads see a direction if its cosine with their normals is at least this.
+constexpr double kVisible = 0.1;
+/// Normals that differ by less are one: what rounding makes of flat surfaces.
+constexpr double kSameNormal = 1e-12;
+/// Heights shrink by this where cells or fronts are not sound, so often before layers end.
+constexpr double kShrink = 0.6;
+constexpr int kShrinks = 6;
+/// Rows of quads serve as sides of layers if their heights differ by this factor at most.
+constexpr double kSimilar = 2;
+
+Vec3 unit_of(const Vec3& v) { return (1 / norm(v)) * v; }
+
+/// Returns the unit vector whose least dot product with unit vectors is the largest one, and this product.
+std::pair<Vec3, double> best_seen(const std::vector<Vec3>& normals) {
+  std::pair<Vec3, double> best{{}, -1};
+  const auto offer = [&](const Vec3& v) {
+    const double length = norm(v);
+    if (length < kSameNormal) return;
+    double least = 1;
+    for (const Vec3& n : normals) least = std::min(least, dot(n, v) / length);
+    if (least > best.second + kSameNormal) best = {(1 / length) * v, least};
+  };
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    offer(normals[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      offer(normals[i] + normals[j]);
+      for (std::size_t k = 0; k < j; ++k) {
+        const Vec3 across = cross(normals[j] - normals[i], normals[k] - normals[i]);
+        offer(dot(across, normals[i]) < 0 ? (-1.0) * across : across);
+      }
+    }
+  }
+  return best;
+}
+
+std::optional<NearestTriangle> nearest_of(const Mesh& body, const std::vector<char>& mark, bool marked) {
+  std::vector<std::array<int, 3>> halves;
+  for (std::size_t q = 0; q < body.quads.size(); ++q) {
+    const auto [a, b, c, d] = body.quads[q];
+    if ((mark[q] != 0) == marked) halves.insert(halves.end(), {{a, b, c}, {a, c, d}});
+  }
+  if (halves.empty()) return {};
+  return NearestTriangle(body.points, halves);
+}
+
+class LayerGrower {
+ public:
+  LayerGrower(const Mesh& body, const std::vector<char>& has_layers, std::span<const double> heights)
+      : body_(body),
+        has_layers_(has_layers),
+        heights_(heights),
+        spokes_(body.points.size()),
+        at_(body.points.size()) {
+    for (std::size_t q = 0; q < body.quads.size(); ++q)
+      for (int k = 0; k < 4; ++k) {
+        const Quad& quad = body.quads[q];
+        spokes_[quad[k]].push_back({quad[(k + 1) % 4], quad[(k + 3) % 4], static_cast<int>(q)});
+        if (has_layers[q] != 0) at_[quad[k]].kind = Kind::kFree;
+      }
+    find_directions();
+    find_rows();
+    find_room();
+  }
+
+  /// Places points and cells; layers shrink until all cells are positive and fronts do not cross.
+  void grow() {
+    std::vector<int> poor;
+    do {
+      check_cancelled();
+      settle();
+      place();
+      poor = poor_quads();
+    } while (shrink(poor));
+  }
+
+  /// Lets layers shrink at quads of the body; returns whether there are any.
+  bool shrink(const std::vector<int>& quads) {
+    std::vector<char> done(at_.size(), 0);
+    bool any = false;
+    for (const int q : quads)
+      for (const int v : body_.quads[q]) {
+        Place& at = at_[v];
+        if ((at.kind != Kind::kFree && at.kind != Kind::kRows) || std::exchange(done[v], 1) != 0) continue;
+        any = true;
+        at.limit *= kShrink;
+        if (++at.shrinks > kShrinks) at.kind = Kind::kEnd;
+      }
+    return any;
+  }
+
+  /// The body without layers, whose points are `points_of_rest`. Its last quads are folded.
+  Mesh rest(std::vector<int>& points_of_rest) const {
+    Mesh rest;
+    std::vector<int> index(cells_.points.size(), -1);
+    for (auto [quad, of] : front_) {
+      for (int& v : quad) {
+        if (index[v] < 0) {
+          index[v] = static_cast<int>(rest.points.size());
+          points_of_rest.push_back(v);
+          rest.points.push_back(cells_.points[v]);
+        }
+        v = index[v];
+      }
+      rest.quads.push_back(quad);
+    }
+    return rest;
+  }
+  /// Splits folded quads of a front into triangles.
+  void split_folded(std::vector<Quad>& quads, std::vector<std::array<int, 3>>& triangles) const {
+    for (std::size_t i = n_flat_; i < quads.size(); ++i) {
+      const auto [a, b, c, d] = quads[i];
+      triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+    }
+    quads.resize(n_flat_);
+  }
+  /// The quad of the body at a face of such a front, quads first.
+  int quad_of(std::size_t face) const {
+    return front_[face < n_flat_ ? face : n_flat_ + (face - n_flat_) / 2].second;
+  }
+
+  /// Points, and cells whose volumes are the quads below them.
+  const Mesh& cells() const { return cells_; }
+
+  GrownLayers told() const {
+    GrownLayers told;
+    for (std::size_t q = 0; q < body_.quads.size(); ++q) {
+      if (has_layers_[q] == 0) continue;
+      if (std::ranges::all_of(body_.quads[q], [&](int v) { return at_[v].kind == Kind::kEnd; })) {
+        if (++told.n_bare == 1) told.bare_at = body_.points[body_.quads[q][0]];
+        continue;
+      }
+      for (const int v : body_.quads[q])
+        if (at_[v].kind == Kind::kFree && at_[v].limit < told.least)
+          told.least = at_[v].limit, told.least_at = body_.points[v];
+    }
+    return told;
+  }
+
+ private:
+  /// Points off layers; points that move; points with rows of quads; and points where layers end.
+  enum class Kind { kOff, kFree, kRows, kEnd };
+  struct Place {
+    Kind kind = Kind::kOff;
+    Vec3 move;          ///< for a height of 1
+    double seen = 1;    ///< least height above planes of quads, for a height of 1
+    double limit = 1;   ///< most part of the height
+    double height = 0;  ///< of all layers
+    int shrinks = 0;
+    std::vector<int> row;  ///< the points of layers
+    int first = -1;        ///< point of the first layer
+  };
+  /// A corner of a quad: the next and the previous corner.
+  struct Spoke {
+    int next, previous, quad;
+  };
+
+  const Spoke* spoke(int v, int next) const {
+    const auto found = std::ranges::find(spokes_[v], next, &Spoke::next);
+    return found == spokes_[v].end() ? nullptr : &*found;
+  }
+  bool is_bare(const Spoke& s) const { return has_layers_[s.quad] == 0; }
+
+  /// Whether the quads at a point make one fan.
+  bool is_fan(int v) const {
+    int x = spokes_[v][0].next;
+    for (std::size_t i = 1; i <= spokes_[v].size(); ++i) {
+      const Spoke* s = spoke(v, x);
+      if (s == nullptr) return false;
+      x = s->previous;
+      if (x == spokes_[v][0].next) return i == spokes_[v].size();
+    }
+    return false;
+  }
+
+  void find_directions() {
+    for (std::size_t v = 0; v < at_.size(); ++v) {
+      Place& at = at_[v];
+      if (at.kind != Kind::kFree) continue;
+      if (!is_fan(static_cast<int>(v))) {
+        at.kind = Kind::kEnd;
+        continue;
+      }
+      std::vector<Vec3> normals;
+      for (const Spoke& s : spokes_[v]) {
+        const Vec3 &p = body_.points[v], in = cross(body_.points[s.previous] - p, body_.points[s.next] - p);
+        if (is_bare(s))
+          at.kind = Kind::kEnd;
+        else if (norm(in) > 0 && std::ranges::none_of(normals, [&](const Vec3& n) {
+                   return norm(n - unit_of(in)) < kSameNormal;
+                 }))
+          normals.push_back(unit_of(in));
+      }
+      const auto [direction, least] = best_seen(normals);
+      if (least < kVisible) at.kind = Kind::kEnd;
+      const double length = std::min(1 / least, kLongest);
+      at.move = length * direction;
+      at.seen = length * least;
+    }
+  }
+
+  /// Returns the points of layers along quads without layers; empty: there are no rows like layers.
+  std::vector<int> row_at(int v) const {
+    std::vector<int> row;
+    for (const Spoke& s : spokes_[v]) {
+      const auto before = std::ranges::find(spokes_[v], s.next, &Spoke::previous);
+      if (!is_bare(s) || before == spokes_[v].end() || !is_bare(*before)) continue;
+      if (!row.empty()) return {};
+      row.push_back(s.next);
+    }
+    if (row.empty()) return {};
+    for (int from = v; row.size() < heights_.size();) {
+      const int at = row.back();
+      constexpr std::size_t kRegular = 4;
+      if (spokes_[at].size() != kRegular || !is_fan(at) || at_[at].kind != Kind::kOff) return {};
+      row.push_back(spoke(at, spoke(at, from)->previous)->previous);
+      from = at;
+    }
+    if (at_[row.back()].kind != Kind::kOff) return {};
+    double length = 0;
+    std::vector<double> ends;
+    for (std::size_t k = 0; k < row.size(); ++k)
+      ends.push_back(length += norm(body_.points[row[k]] - body_.points[k == 0 ? v : row[k - 1]]));
+    const double scale = length / heights_.back();
+    if (scale > kSimilar) return {};
+    for (std::size_t k = 0; k < row.size(); ++k)
+      if (const double ratio = ends[k] / heights_[k] / scale; ratio > kSimilar || ratio * kSimilar < 1)
+        return {};
+    return row;
+  }
+
+  /// Finds where layers may stand on rows of quads without layers.
+  void find_rows() {
+    std::map<Quad, int> bare;
+    for (std::size_t q = 0; q < body_.quads.size(); ++q)
+      if (has_layers_[q] == 0) bare[side_key(body_.quads[q])] = static_cast<int>(q);
+    std::vector<int> owner(at_.size(), -1);
+    for (std::size_t v = 0; v < at_.size(); ++v) {
+      if (at_[v].kind != Kind::kEnd || !is_fan(static_cast<int>(v))) continue;
+      const std::vector<int> row = at_[v].row = row_at(static_cast<int>(v));
+      for (const int at : row)
+        if (const int other = std::exchange(owner[at], static_cast<int>(v)); other >= 0)
+          at_[v].row.clear(), at_[other].row.clear();
+    }
+    for (std::size_t q = 0; q < body_.quads.size(); ++q)
+      for (int k = 0; k < 4 && has_layers_[q] != 0; ++k) {
+        const int a = body_.quads[q][k], b = body_.quads[q][(k + 1) % 4];
+        const auto across = std::ranges::find(spokes_[a], b, &Spoke::previous);
+        if (across == spokes_[a].end() || !is_bare(*across)) continue;
+        Rim rim{a, b, {}};
+        if (!at_[a].row.empty() && !at_[b].row.empty())
+          for (std::size_t i = 0; i < heights_.size(); ++i) {
+            const Quad side = {i == 0 ? a : at_[a].row[i - 1], i == 0 ? b : at_[b].row[i - 1], at_[b].row[i],
+                               at_[a].row[i]};
+            if (const auto found = bare.find(side_key(side)); found != bare.end())
+              rim.sides.push_back(found->second);
+          }
+        if (rim.sides.size() == heights_.size())
+          for (const int v : {a, b}) at_[v].kind = Kind::kRows;
+        rims_.push_back(rim);
+      }
+    for (const Rim& rim : rims_)
+      if (rim.sides.size() < heights_.size())
+        for (const int v : {rim.a, rim.b}) at_[v].kind = Kind::kEnd;
+  }
+
+  /// Limits heights where other quads are near.
+  void find_room() {
+    constexpr double kApart = 1;    // between fronts, in heights
+    constexpr double kOther = 0.5;  // from fronts to quads without layers, in heights
+    constexpr double kOwn = 0.75;   // part of the height at which the own quads still are the nearest
+    constexpr int kSteps = 10;
+    const auto walls = nearest_of(body_, has_layers_, true), others = nearest_of(body_, has_layers_, false);
+    parallel_each(at_.size(), [&](std::size_t v) {
+      Place& at = at_[v];
+      if (at.kind != Kind::kFree) return;
+      const auto fits = [&](double part) {
+        const Vec3 top = part * heights_.back() * at.move;
+        const double height = part * heights_.back() * at.seen;
+        const double own = kOwn * (1 + kApart) * height;
+        return walls->find(body_.points[v] + (1 + kApart) * top, own).distance >= own &&
+               (!others || others->find(body_.points[v] + top, kOther * height).distance >= kOther * height);
+      };
+      if (fits(1)) return;
+      double low = 0, high = 1;
+      for (int i = 0; i < kSteps; ++i) {
+        const double middle = 0.5 * (low + high);
+        (fits(middle) ? low : high) = middle;
+      }
+      at.limit = low;
+    });
+  }
+
+  /// Limits slopes of heights, and ends layers where too little is left.
+  void settle() {
+    while (end_rims() || limit_slopes()) {
+    }
+  }
+
+  /// Ends rows beside ends.
+  bool end_rims() {
+    bool any = false;
+    for (const Rim& rim : rims_)
+      for (const auto& [v, w] : {std::pair(rim.a, rim.b), std::pair(rim.b, rim.a)})
+        if (at_[v].kind == Kind::kEnd && at_[w].kind != Kind::kEnd) at_[w].kind = Kind::kEnd, any = true;
+    return any;
+  }
+
+  bool limit_slopes() {
+    using Item = std::pair<double, int>;
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      const int v = static_cast<int>(i);
+      Place& at = at_[i];
+      at.height = at.kind == Kind::kFree ? at.limit * heights_.back() : 0;
+      int from = v;
+      if (at.kind == Kind::kRows)
+        for (const int w : at.row) at.height += norm(body_.points[w] - body_.points[std::exchange(from, w)]);
+      if (at.kind != Kind::kOff) queue.emplace(at.height, v);
+    }
+    while (!queue.empty()) {
+      const auto [height, v] = queue.top();
+      queue.pop();
+      if (height > at_[v].height) continue;
+      for (const Spoke& s : spokes_[v])
+        for (const int w : {s.next, s.previous}) {
+          const double most = height + kSlope * norm(body_.points[w] - body_.points[v]);
+          if (is_bare(s) || at_[w].kind != Kind::kFree || at_[w].height <= most) continue;
+          at_[w].height = most;
+          queue.emplace(most, w);
+        }
+    }
+    bool any = false;
+    for (Place& at : at_)
+      if (at.kind == Kind::kFree && at.height < kLeastScale * heights_.back())
+        at.kind = Kind::kEnd, any = true;
+    return any;
+  }
+
+  int point(int v, std::size_t level) const {
+    const Place& at = at_[v];
+    if (level == 0 || at.kind == Kind::kEnd) return v;
+    return at.kind == Kind::kRows ? at.row[level - 1] : at.first + static_cast<int>(level) - 1;
+  }
+
+  /// Makes points, cells and the front.
+  void place() {
+    cells_ = {};
+    cells_.points = body_.points;
+    for (std::size_t v = 0; v < at_.size(); ++v) {
+      if (at_[v].kind != Kind::kFree) continue;
+      at_[v].first = static_cast<int>(cells_.points.size());
+      for (const double height : heights_)
+        cells_.points.push_back(body_.points[v] + at_[v].height / heights_.back() * height * at_[v].move);
+    }
+    std::vector<char> is_side(body_.quads.size(), 0);
+    for (const Rim& rim : rims_)
+      if (at_[rim.a].kind == Kind::kRows)
+        for (const int q : rim.sides) is_side[q] = 1;
+    front_.clear();
+    std::vector<std::pair<Quad, int>> folded;
+    for (int q = 0; q < static_cast<int>(body_.quads.size()); ++q) {
+      if (is_side[q] != 0) continue;
+      const int turn = has_layers_[q] != 0 ? fold_of(q) : -1;
+      Quad top = body_.quads[q];
+      if (has_layers_[q] != 0) {
+        for (int& v : top) v = point(v, heights_.size());
+        for (std::size_t level = 0; level < heights_.size(); ++level) add_cells(q, level);
+      }
+      if (turn >= 0) std::rotate(top.begin(), top.begin() + turn, top.end());
+      (turn < 0 ? front_ : folded).emplace_back(top, q);
+    }
+    n_flat_ = front_.size();
+    front_.insert(front_.end(), folded.begin(), folded.end());
+  }
+
+  /// The corner of a quad where alone layers stand; -1: there is no single one.
+  int fold_of(int q) const {
+    const auto stands = [&](int v) { return at_[v].kind != Kind::kEnd; };
+    const Quad& quad = body_.quads[q];
+    if (std::ranges::count_if(quad, stands) != 1) return -1;
+    return static_cast<int>(std::ranges::find_if(quad, stands) - quad.begin());
+  }
+
+  /// Adds a hexahedron of a layer, or what is left of it: a prism, or pyramids and tetrahedra.
+  void add_cells(int q, std::size_t level) {
+    Quad quad = body_.quads[q];
+    std::reverse(quad.begin(), quad.end());
+    const auto is_end = [&](int k) { return at_[quad[k]].kind == Kind::kEnd; };
+    const auto n_ends = std::ranges::count_if(std::array{0, 1, 2, 3}, is_end);
+    if (n_ends == 4) return;
+    // Ends come first, but a single corner that stands does.
+    for (int k = 0; k < 4 && n_ends > 0; ++k) {
+      if (n_ends == 3 ? !is_end(0) : is_end(0) && (is_end(1) || n_ends == 1)) break;
+      std::rotate(quad.begin(), quad.begin() + 1, quad.end());
+    }
+    std::array<int, 8> hex;
+    for (int k = 0; k < 4; ++k) hex[k] = point(quad[k], level), hex[k + 4] = point(quad[k], level + 1);
+    if (n_ends == 0) {
+      cells_.hexahedra.push_back(hex), cells_.hex_volume.push_back(q);
+    } else if (n_ends == 2 && is_end(1)) {
+      cells_.prisms.push_back({hex[0], hex[3], hex[7], hex[1], hex[2], hex[6]});
+      cells_.prism_volume.push_back(q);
+    } else if (n_ends < 3) {
+      add_around_middle(hex, q);
+    } else if (level == 0) {
+      cells_.pyramids.push_back({hex[0], hex[1], hex[2], hex[3], hex[4]}), cells_.pyramid_volume.push_back(q);
+    } else {
+      cells_.tetrahedra.push_back({hex[0], hex[1], hex[2], hex[4]});
+      cells_.tetrahedra.push_back({hex[0], hex[2], hex[3], hex[4]});
+      cells_.tet_volume.resize(cells_.tetrahedra.size(), q);
+    }
+  }
+
+  void add_around_middle(const std::array<int, 8>& hex, int q) {
+    const int middle = static_cast<int>(cells_.points.size());
+    std::vector<int> corners(hex.begin(), hex.end());
+    sort_unique(corners);
+    Vec3 sum;
+    for (const int v : corners) sum = sum + 1.0 / static_cast<double>(corners.size()) * cells_.points[v];
+    cells_.points.push_back(sum);
+    for (const Quad& side : solid_shape(CellShape::kHexahedron).sides) {
+      std::vector<int> seen;  // from the middle
+      for (int k = 3; k >= 0; --k)
+        if (hex[side[k]] != hex[side[(k + 1) % 4]]) seen.push_back(hex[side[k]]);
+      if (seen.size() == 4)
+        cells_.pyramids.push_back({seen[0], seen[1], seen[2], seen[3], middle}),
+            cells_.pyramid_volume.push_back(q);
+      if (seen.size() == 3)
+        cells_.tetrahedra.push_back({seen[0], seen[1], seen[2], middle}), cells_.tet_volume.push_back(q);
+    }
+  }
+
+  /// The quads of the body at which cells are not proven positive, or fronts cross.
+  std::vector<int> poor_quads() const {
+    std::vector<int> quads(n_solids(cells_), -1);
+    parallel_each(quads.size(), [&](std::size_t i) {
+      const Solid cell = solid_at(cells_, i);
+      std::array<Vec3, 8> corners;
+      for (std::size_t k = 0; k < cell.nodes.size(); ++k) corners[k] = cells_.points[cell.nodes[k]];
+      if (!is_positive(std::span(corners).first(cell.nodes.size()))) quads[i] = cell.volume;
+    });
+    std::erase(quads, -1);
+    if (!quads.empty()) return quads;
+    std::vector<Quad> front;
+    std::vector<std::array<int, 3>> triangles;
+    for (const auto& [quad, of] : front_) front.push_back(quad);
+    split_folded(front, triangles);
+    for (const int f : untangle(cells_.points, front, triangles)) quads.push_back(quad_of(f));
+    return quads;
+  }
+
+  /// An edge between a quad with layers and one without.
+  struct Rim {
+    int a, b;
+    std::vector<int> sides;  ///< the quads of rows there
+  };
+
+  const Mesh& body_;
+  const std::vector<char>& has_layers_;
+  std::span<const double> heights_;
+  std::vector<std::vector<Spoke>> spokes_;  ///< by point
+  std::vector<Place> at_;                   ///< by point
+  std::vector<Rim> rims_;
+  Mesh cells_;
+  /// The skin of the rest, and the quads of the body there. Behind the flat ones are those that are folded
+  /// along the diagonal from their first corner.
+  std::vector<std::pair<Quad, int>> front_;
+  std::size_t n_flat_ = 0;
+};
+
+}  // namespace
+
+std::vector<int> fill_with_layers(Mesh& body, const std::vector<char>& has_layers,
+                                  std::span<const double> heights, const std::function<void(Mesh&)>& place,
+                                  bool improve, GrownLayers& grown) {
+  LayerGrower grower(body, has_layers, heights);
+  while (true) {
+    grower.grow();
+    std::vector<int> points;
+    Mesh rest = grower.rest(points);
+    place(rest);
+    grower.split_folded(rest.quads, rest.triangles);
+    std::vector<int> lost = fill_around(rest, improve);
+    for (int& f : lost) f = grower.quad_of(f);
+    if (grower.shrink(lost)) continue;
+    if (!lost.empty()) return lost;
+    grown = grower.told();
+    body.points = grower.cells().points;
+    for (std::size_t i = points.size(); i < rest.points.size(); ++i) {
+      points.push_back(static_cast<int>(body.points.size()));
+      body.points.push_back(rest.points[i]);
+    }
+    const auto add = [&](auto& to, auto cells, std::vector<int>& volume_of, const auto& layers) {
+      for (auto& cell : cells)
+        for (int& v : cell) v = points[v];
+      cells.insert(cells.end(), layers.begin(), layers.end());
+      volume_of.resize(cells.size(), 0);
+      to = std::move(cells);
+    };
+    const Mesh& layers = grower.cells();
+    add(body.hexahedra, rest.hexahedra, body.hex_volume, layers.hexahedra);
+    add(body.prisms, rest.prisms, body.prism_volume, layers.prisms);
+    add(body.pyramids, rest.pyramids, body.pyramid_volume, layers.pyramids);
+    add(body.tetrahedra, rest.tetrahedra, body.tet_volume, layers.tetrahedra);
+    return {};
+  }
+}
+
+}  // namespace delquad
