@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <numbers>
+#include <span>
+
+#include "features/volume/frame_field.h"
+#include "metrics/cells.h"
 
 namespace delquad {
 
 namespace {
 
-double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
+/// Hexahedra and prisms above this scaled Jacobian count as good.
+constexpr double kGoodBlock = 0.3;
 
-Vec3 unit(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : v;
-}
+double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
 
 double quality_of_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = c - a, w = d - a;
@@ -24,14 +26,11 @@ double quality_of_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const
   return most > 0 ? std::numbers::sqrt2 * det / (det > 0 || least == 0 ? most : least) : 0;
 }
 
-}  // namespace
-
-double quality_of(const std::array<Vec3, 5>& p, bool is_pyramid) {
-  if (!is_pyramid) return quality_of_tetrahedron(p[0], p[1], p[2], p[3]);
+double quality_of_pyramid(std::span<const Vec3> p) {
   std::array<Vec3, 4> side, up;
   for (int k = 0; k < 4; ++k) {
-    side[k] = unit(p[(k + 1) % 4] - p[k]);
-    up[k] = unit(p[4] - p[k]);
+    side[k] = direction_of(p[(k + 1) % 4] - p[k]);
+    up[k] = direction_of(p[4] - p[k]);
   }
   double least = 1;
   for (int k = 0; k < 4; ++k) {
@@ -41,15 +40,27 @@ double quality_of(const std::array<Vec3, 5>& p, bool is_pyramid) {
   return std::numbers::sqrt2 * least;
 }
 
+}  // namespace
+
+bool CellMesh::is_free(int v) const {
+  return !fixed_[v] && std::ranges::none_of(at_[v], [&](int c) { return is_block(cells_[c]); });
+}
+
 double CellMesh::quality_with(const Cell& cell, int v, const Vec3& x) const {
-  std::array<Vec3, 5> p;
-  for (int k = 0; k < n_corners(cell); ++k) p[k] = cell[k] == v ? x : points_[cell[k]];
-  return quality_of(p, cell[4] >= 0);
+  std::array<Vec3, 8> p;
+  const int n = n_corners(cell);
+  for (int k = 0; k < n; ++k) p[k] = cell[k] == v ? x : points_[cell[k]];
+  if (n == 4) return quality_of_tetrahedron(p[0], p[1], p[2], p[3]);
+  const std::span<const Vec3> corners = std::span(p).first(n);
+  if (n == 5) return quality_of_pyramid(corners);
+  const double jacobian = scaled_jacobian(corners);
+  return jacobian < kGoodBlock || !is_positive(corners) ? -1 : 1;
 }
 
 int CellMesh::add_point(const Vec3& p) {
   points_.push_back(p);
   at_.emplace_back();
+  fixed_.push_back(0);
   return static_cast<int>(points_.size()) - 1;
 }
 
@@ -58,17 +69,36 @@ void CellMesh::add(const Cell& cell) {
   cells_.push_back(cell);
   quality_.push_back(quality_with(cell));
   for (int k = 0; k < n_corners(cell); ++k) at_[cell[k]].push_back(c);
+  changes_.push_back({c, -1, {-1}, {}});
 }
 
 void CellMesh::remove(int c) {
+  changes_.push_back({c, -1, cells_[c], {}});
   for (int k = 0; k < n_corners(cells_[c]); ++k) std::erase(at_[cells_[c][k]], c);
   cells_[c].fill(-1);
   quality_[c] = 1;
 }
 
 void CellMesh::move(int v, const Vec3& to) {
+  changes_.push_back({-1, v, {}, points_[v]});
   points_[v] = to;
   for (const int c : at_[v]) quality_[c] = quality_with(cells_[c]);
+}
+
+void CellMesh::undo(std::size_t state) {
+  while (changes_.size() > state) {
+    const Change change = changes_.back();
+    if (change.vertex >= 0) {
+      move(change.vertex, change.from);
+    } else if (change.corners[0] < 0) {
+      remove(change.cell);
+    } else {
+      cells_[change.cell] = change.corners;
+      quality_[change.cell] = quality_with(change.corners);
+      for (int k = 0; k < n_corners(change.corners); ++k) at_[change.corners[k]].push_back(change.cell);
+    }
+    changes_.resize(changes_.size() - (change.vertex >= 0 || change.corners[0] < 0 ? 2 : 1));
+  }
 }
 
 std::vector<int> CellMesh::cells_with(std::initializer_list<int> corners) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
@@ -13,31 +14,42 @@
 
 namespace delquad {
 
-/// Corners of a pyramid, or of a tetrahedron and -1, in the order of Mesh.
-using Cell = std::array<int, 5>;
+/// Corners of a hexahedron, prism, pyramid or tetrahedron in the order of Mesh, then -1.
+using Cell = std::array<int, 8>;
 
-inline int n_corners(const Cell& cell) { return cell[4] < 0 ? 4 : 5; }
-inline bool has_corner(const Cell& cell, int v) {
-  return cell[0] == v || cell[1] == v || cell[2] == v || cell[3] == v || cell[4] == v;
+/// Returns a cell of given corners.
+template <class Corners>
+Cell cell_of(const Corners& corners) {
+  Cell cell;
+  cell.fill(-1);
+  std::ranges::copy(corners, cell.begin());
+  return cell;
 }
+inline int n_corners(const Cell& cell) { return cell[4] < 0 ? 4 : cell[5] < 0 ? 5 : cell[6] < 0 ? 6 : 8; }
+inline bool is_pyramid(const Cell& cell) { return cell[4] >= 0 && cell[5] < 0; }
+/// Returns whether this is a hexahedron or prism.
+inline bool is_block(const Cell& cell) { return cell[5] >= 0; }
+inline bool has_corner(const Cell& cell, int v) { return std::ranges::find(cell, v) != cell.end(); }
 
-/// Returns the scaled Jacobian as in metrics/cells.h. The apex of a pyramid counts, too, with each three
-/// neighboring edges.
-double quality_of(const std::array<Vec3, 5>& corners, bool is_pyramid);
-
-/// Tetrahedra and pyramids with their cells at each vertex.
+/// Cells with their lists at each vertex.
 class CellMesh {
  public:
-  /// The first points are fixed.
-  CellMesh(std::vector<Vec3> points, std::size_t n_fixed)
-      : points_(std::move(points)), at_(points_.size()), n_fixed_(static_cast<int>(n_fixed)) {}
+  /// Vertices that are `fixed` stay at their places; later ones are free.
+  CellMesh(std::vector<Vec3> points, std::vector<char> fixed)
+      : points_(std::move(points)), at_(points_.size()), fixed_(std::move(fixed)) {
+    fixed_.resize(points_.size(), 0);
+  }
 
   const std::vector<Vec3>& points() const { return points_; }
   const std::vector<Cell>& cells() const { return cells_; }
   bool is_alive(int c) const { return cells_[c][0] >= 0; }
-  bool is_free(int v) const { return v >= n_fixed_; }
+  bool is_fixed(int v) const { return fixed_[v]; }
+  /// Returns whether a vertex is neither fixed nor one of a hexahedron or prism.
+  bool is_free(int v) const;
   double quality(int c) const { return quality_[c]; }
-  /// Returns the quality of any cell, with vertex `v` at x; -1: all vertices at their places.
+  /// Returns the quality of any cell, with vertex `v` at x; -1: all vertices at their places. It is the
+  /// scaled Jacobian as in metrics/cells.h; the apex of a pyramid counts, too, with each three neighboring
+  /// edges. Hexahedra and prisms have 1 if they are good enough, otherwise -1.
   double quality_with(const Cell& cell, int v = -1, const Vec3& x = {}) const;
   const std::vector<int>& at(int v) const { return at_[v]; }
 
@@ -45,6 +57,10 @@ class CellMesh {
   void add(const Cell& cell);
   void remove(int c);
   void move(int v, const Vec3& to);
+  /// Tells the present state to undo(). States lie within each other.
+  std::size_t state() const { return changes_.size(); }
+  /// Takes all changes since a state back.
+  void undo(std::size_t state);
 
   /// Returns the cells with these corners, lower indices first.
   std::vector<int> cells_with(std::initializer_list<int> corners) const;
@@ -57,18 +73,33 @@ class CellMesh {
   std::vector<int> ring(int a, int b, bool& is_open) const;
 
  private:
+  /// A cell that came or went, or a vertex (-1: none) that moved.
+  struct Change {
+    int cell, vertex;
+    Cell corners;  ///< of a cell that went
+    Vec3 from;
+  };
+
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
   std::vector<double> quality_;
   std::vector<std::vector<int>> at_;
-  int n_fixed_;
+  std::vector<char> fixed_;
+  std::vector<Change> changes_;
 };
 
-/// Moves a free vertex until the least quality of its cells stays the same; returns the gain.
+/// Moves a vertex until the least quality of its cells stays the same; returns the gain.
 double relocate(CellMesh& mesh, int v);
 
-/// Improves the cells below a quality by moves of vertices, and by removals and collapses of edges. The least
-/// quality never falls. Own order of known operations.
-void improve(CellMesh& mesh, double wanted);
+/// Improves cells by moves of vertices, and by removals and collapses of edges. The least quality never
+/// falls. Own order of known operations.
+void improve(CellMesh& mesh);
+
+/// Divides hexahedra and prisms beside poor cells into pyramids and tetrahedra, one by one, where that makes
+/// the poor ones better.
+void divide_blocks(CellMesh& mesh);
+
+/// Removes free vertices by collapses of edges where cells stay good.
+void coarsen(CellMesh& mesh);
 
 }  // namespace delquad

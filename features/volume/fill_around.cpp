@@ -13,10 +13,6 @@ namespace delquad {
 
 namespace {
 
-/// Cells below this quality cost the hexahedra and prisms beside them.
-constexpr double kPoorQuality = 0.08;
-constexpr int kPoorRounds = 8;
-
 /// A face of the skin or of a hexahedron or prism, counterclockwise seen from outside of the void.
 struct OpenFace {
   std::array<int, 4> corners;  ///< the last is -1 for a triangle
@@ -80,20 +76,16 @@ class Filler {
   Filler(Mesh& body, bool improve) : body_(body), improve_(improve) {}
 
   std::vector<int> fill() {
-    for (int round = 0;; ++round) {
+    for (;;) {
       check_cancelled();
       faces_ = open_faces(body_);
       if (faces_.empty()) return {};
       const Filling filling = fill_void(boundary_of_void(), improve_);
-      std::vector<int> cells;
-      if (!filling.lost.empty())
-        cells = cells_at(filling.lost);
-      else if (improve_ && round < kPoorRounds)
-        cells = cells_beside_poor(filling);
-      if (cells.empty() && filling.lost.empty()) {
-        add_cells(filling);
+      if (filling.lost.empty()) {
+        take_cells(filling);
         return {};
       }
+      const std::vector<int> cells = cells_at(filling.lost);
       if (cells.empty()) return skin_at(filling.lost);
       drop_cells(body_, cells);
     }
@@ -101,18 +93,18 @@ class Filler {
 
  private:
   VoidBoundary boundary_of_void() const {
-    VoidBoundary boundary{body_.points, {}, {}, {}};
+    VoidBoundary boundary{body_.points, {}, {}, {}, std::vector<char>(body_.points.size(), 0)};
     for (const auto& [v, owner] : faces_)
       if (v[3] >= 0)
         boundary.quads.push_back(v);
       else
         boundary.triangles.push_back({v[0], v[1], v[2]});
-    for (std::size_t i = 0; i < n_solids(body_); ++i) {
-      const std::span<const int> nodes = solid_at(body_, i).nodes;
-      Vec3 sum;
-      for (const int v : nodes) sum = sum + (1.0 / static_cast<double>(nodes.size())) * body_.points[v];
-      boundary.holes.push_back(sum);
-    }
+    for (const auto& hex : body_.hexahedra) boundary.blocks.push_back(cell_of(hex));
+    for (const auto& prism : body_.prisms) boundary.blocks.push_back(cell_of(prism));
+    for (const auto& q : body_.quads)
+      for (const int v : q) boundary.fixed[v] = 1;
+    for (const auto& t : body_.triangles)
+      for (const int v : t) boundary.fixed[v] = 1;
     return boundary;
   }
 
@@ -124,32 +116,11 @@ class Filler {
       if (faces_[f].owner < 0) owners.push_back(-1 - faces_[f].owner);
       for (int k = 0; k < n_of(faces_[f]); ++k) at[faces_[f].corners[k]] = 1;
     }
-    return owners.empty() ? cells_with(at, 1) : owners;
-  }
-
-  /// Returns the cells with at least `least` marked vertices.
-  std::vector<int> cells_with(const std::vector<char>& marked, int least) const {
-    std::vector<int> cells;
+    if (!owners.empty()) return owners;
     for (std::size_t i = 0; i < n_solids(body_); ++i)
-      if (std::ranges::count_if(solid_at(body_, i).nodes, [&](int v) { return marked[v]; }) >= least)
-        cells.push_back(static_cast<int>(i));
-    return cells;
-  }
-
-  /// Returns the cells that share an edge with a poor one.
-  std::vector<int> cells_beside_poor(const Filling& filling) const {
-    std::vector<int> beside;
-    for (const Cell& cell : filling.cells) {
-      std::array<Vec3, 5> corners;
-      for (int k = 0; k < n_corners(cell); ++k) corners[k] = filling.points[cell[k]];
-      if (quality_of(corners, cell[4] >= 0) >= kPoorQuality) continue;
-      std::vector<char> marked(body_.points.size(), 0);
-      for (int k = 0; k < n_corners(cell); ++k)
-        if (cell[k] < static_cast<int>(marked.size())) marked[cell[k]] = 1;
-      const std::vector<int> more = cells_with(marked, 2);
-      beside.insert(beside.end(), more.begin(), more.end());
-    }
-    return beside;
+      if (std::ranges::any_of(solid_at(body_, i).nodes, [&](int v) { return at[v]; }))
+        owners.push_back(static_cast<int>(i));
+    return owners;
   }
 
   std::vector<int> skin_at(const std::vector<int>& faces) const {
@@ -159,13 +130,28 @@ class Filler {
     return skin;
   }
 
-  void add_cells(const Filling& filling) {
+  void take_cells(const Filling& filling) {
     body_.points = filling.points;
-    for (const Cell& cell : filling.cells)
-      if (cell[4] < 0)
-        body_.tetrahedra.push_back({cell[0], cell[1], cell[2], cell[3]});
-      else
-        body_.pyramids.push_back(cell);
+    body_.hexahedra.clear(), body_.prisms.clear();
+    for (const Cell& cell : filling.cells) {
+      const auto add = [&](auto& list) {
+        list.emplace_back();
+        std::copy_n(cell.begin(), list.back().size(), list.back().begin());
+      };
+      switch (n_corners(cell)) {
+        case 8:
+          add(body_.hexahedra);
+          break;
+        case 6:
+          add(body_.prisms);
+          break;
+        case 5:
+          add(body_.pyramids);
+          break;
+        default:
+          add(body_.tetrahedra);
+      }
+    }
   }
 
   Mesh& body_;

@@ -10,10 +10,10 @@
 namespace delquad {
 
 /// Adds pyramids and tetrahedra to a body. Its quads and triangles are the closed skin and look outwards; its
-/// hexahedra and prisms lie inside and may use quads as faces. It drops them where the filling fails or has
-/// cells of quality below 0.08. Without `improve` cells stay as made, at any positive quality. All cells are
-/// of volume 0. Returns the faces of the skin, quads first, at which the filling fails; empty: the body is
-/// full.
+/// hexahedra and prisms lie inside and may use quads as faces. They go where the filling fails, and
+/// move or are divided where it has poor cells. Without `improve` cells stay as made, at any positive
+/// quality. All cells are of volume 0. Returns the faces of the skin, quads first, at which the filling
+/// fails; empty: the body is full.
 std::vector<int> fill_around(Mesh& body, bool improve = true);
 
 }  // namespace delquad

@@ -22,8 +22,6 @@ using Triangle = std::array<int, 3>;
 
 /// Pyramids below this quality are not made of two tetrahedra.
 constexpr double kGoodPyramid = 0.35;
-/// Cells below this quality are improved.
-constexpr double kWanted = 0.42;
 
 /// Turns a quad so that its diagonal from the first corner lies deeper in the void. In a plane it is the
 /// shorter one, or with `other` the longer one.
@@ -131,7 +129,7 @@ class PyramidMaker {
     if (apex < 0) return false;
     for (const int v : q)
       if (diagonals_.contains(std::minmax(v, apex))) return false;
-    const Cell pyramid = {q[0], q[3], q[2], q[1], apex};
+    const Cell pyramid = cell_of(std::array{q[0], q[3], q[2], q[1], apex});
     if (mesh_.quality_with(pyramid) < kGoodPyramid) return false;
     for (const int c : cells) mesh_.remove(c);
     mesh_.add(pyramid);
@@ -152,7 +150,7 @@ class PyramidMaker {
     if (!(height > 0)) return false;
     const Vec3 inwards = (-height / norm(area)) * area;
     const int m = mesh_.add_point(middle);
-    std::vector<Cell> cells = {{a, d, c, b, m}};
+    std::vector<Cell> cells = {cell_of(std::array{a, d, c, b, m})};
     const std::vector<int> old = mesh_.cells_with({a, c});
     for (const int t : old)
       for (const int end : {a, c}) {
@@ -201,7 +199,14 @@ Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads, bool is_impr
   result.lost = untangle(boundary.points, quads, boundary.triangles);
   if (!result.lost.empty()) return result;
   const std::vector<Triangle> triangles = split(quads, boundary.triangles);
-  const auto made = tetrahedralise(boundary.points, triangles, boundary.holes);
+  std::vector<Vec3> holes;
+  for (const Cell& block : boundary.blocks) {
+    Vec3 sum;
+    for (int k = 0; k < n_corners(block); ++k)
+      sum = sum + (1.0 / n_corners(block)) * boundary.points[block[k]];
+    holes.push_back(sum);
+  }
+  const auto made = tetrahedralise(boundary.points, triangles, holes);
   if (!made) {
     result.lost.resize(quads.size() + boundary.triangles.size());
     std::iota(result.lost.begin(), result.lost.end(), 0);
@@ -212,10 +217,18 @@ Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads, bool is_impr
   for (int& face : result.lost) face = face_at(face, quads.size());
   sort_unique(result.lost);
   if (!result.lost.empty()) return result;
-  CellMesh mesh(made->points, boundary.points.size());
-  for (const auto& [a, b, c, d] : inside) mesh.add({a, b, c, d, -1});
+  CellMesh mesh(made->points, boundary.fixed);
+  for (const auto& corners : inside) mesh.add(cell_of(corners));
   result.lost = PyramidMaker(mesh, quads).make();
-  if (is_improved) improve(mesh, kWanted);
+  if (result.lost.empty()) {
+    for (const Cell& block : boundary.blocks) mesh.add(block);
+    if (is_improved) {
+      improve(mesh);
+      divide_blocks(mesh);
+      coarsen(mesh);
+      improve(mesh);
+    }
+  }
   std::set<int> flat;
   for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
     if (!mesh.is_alive(static_cast<int>(c))) continue;

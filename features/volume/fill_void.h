@@ -16,12 +16,13 @@ struct VoidBoundary {
   std::vector<Vec3> points;  ///< points of no face are left out
   std::vector<std::array<int, 4>> quads;
   std::vector<std::array<int, 3>> triangles;
-  std::vector<Vec3> holes;  ///< a point in each enclosed region that is no part of the void
+  std::vector<Cell> blocks;  ///< hexahedra and prisms beside the void
+  std::vector<char> fixed;   ///< by point, whether it stays at its place
 };
 
 struct Filling {
   std::vector<Vec3> points;  ///< the given points, then new ones
-  std::vector<Cell> cells;
+  std::vector<Cell> cells;   ///< blocks too, as far as they remain
   /// Faces, quads first, at which the filling fails. All are listed if TetGen fails. If the
   /// list is empty, each quad is the base of a pyramid, and all cells are positive.
   std::vector<int> lost;
@@ -38,7 +39,7 @@ std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<std::arra
 
 /// Fills a void. Tetrahedra come from tetrahedralise(). Two of them on a quad with a common apex become a
 /// pyramid. Elsewhere a new vertex splits the diagonal of the quad and is raised. Then cells are improved, if
-/// asked.
+/// asked; blocks beside poor ones give way.
 Filling fill_void(const VoidBoundary& boundary, bool improve);
 
 }  // namespace delquad

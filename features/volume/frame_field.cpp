@@ -43,11 +43,6 @@ std::array<std::array<double, 5>, 3> powers(const Vec3& a) {
   return p;
 }
 
-Vec3 direction_of(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : Vec3{0, 0, 0};
-}
-
 double along(const std::array<double, 6>& m, const Vec3& a) {
   return m[0] * a.x * a.x + m[1] * a.y * a.y + m[2] * a.z * a.z +
          2 * (m[3] * a.x * a.y + m[4] * a.x * a.z + m[5] * a.y * a.z);

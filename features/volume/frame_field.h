@@ -12,6 +12,12 @@
 
 namespace delquad {
 
+/// Returns the vector of unit length along v; v if it has no length.
+inline Vec3 direction_of(const Vec3& v) {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : v;
+}
+
 /// Three orthogonal directions of unit length, right-handed, and the wanted length of edges along each.
 struct Frame {
   std::array<Vec3, 3> axes;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <span>
 #include <utility>
 
+#include "base/sort_unique.h"
 #include "features/volume/cell_mesh.h"
+#include "geometry/mesh/cell_shapes.h"
 
 namespace delquad {
 
@@ -11,6 +15,12 @@ namespace {
 
 /// A change must raise the least quality by more than this, so that changes end.
 constexpr double kGain = 1e-3;
+/// Cells below this quality may move vertices of hexahedra and prisms, and divide these.
+constexpr double kPoor = 0.1;
+/// Cells below this quality are improved.
+constexpr double kWanted = 0.42;
+/// Collapses that make no cell worse than this remove vertices.
+constexpr double kEnough = 0.25;
 
 double mean_edge(const CellMesh& mesh, int v) {
   double sum = 0;
@@ -72,8 +82,8 @@ bool remove_edge(CellMesh& mesh, int a, int b) {
   const int n = static_cast<int>(ring.size());
   if (is_open || n < 3 || n > kMost) return false;
   const auto pair_of = [&](int i, int j, int k) {
-    return std::array<Cell, 2>{Cell{ring[i], ring[j], ring[k], b, -1},
-                               Cell{ring[i], ring[k], ring[j], a, -1}};
+    return std::array{cell_of(std::array{ring[i], ring[j], ring[k], b}),
+                      cell_of(std::array{ring[i], ring[k], ring[j], a})};
   };
   // The best triangulation of the ring's part from i to j, by dynamic programming.
   double best[kMost][kMost];
@@ -104,37 +114,92 @@ bool remove_edge(CellMesh& mesh, int a, int b) {
   return mesh.replace(old, by, kGain);
 }
 
-/// Moves a free vertex onto another one, and removes the cells between.
-bool collapse(CellMesh& mesh, int u, int v) {
+/// Replaces a pyramid and one on the other side of its quad by four tetrahedra around the line of their
+/// apices.
+bool open_quad(CellMesh& mesh, int c) {
+  const Cell cell = mesh.cells()[c];
+  for (const int other : mesh.cells_with({cell[0], cell[1], cell[2], cell[3]})) {
+    const Cell& beyond = mesh.cells()[other];
+    if (other == c || !is_pyramid(beyond)) continue;
+    std::vector<Cell> by;
+    for (int k = 0; k < 4; ++k)
+      by.push_back(cell_of(std::array{cell[k], cell[(k + 1) % 4], beyond[4], cell[4]}));
+    if (mesh.replace({c, other}, by, kGain)) return true;
+  }
+  return false;
+}
+
+/// Moves a free vertex onto another one, and removes the cells between, if the least quality grows by a gain.
+bool collapse(CellMesh& mesh, int u, int v, double gain) {
   std::vector<Cell> by;
   const std::vector<int> old = mesh.at(u);
   for (const int c : old) {
     Cell cell = mesh.cells()[c];
     if (has_corner(cell, v)) {
-      if (cell[4] >= 0) return false;
+      if (is_pyramid(cell)) return false;
       continue;
     }
     std::ranges::replace(cell, u, v);
     by.push_back(cell);
   }
-  return mesh.replace(old, by, kGain);
+  return mesh.replace(old, by, gain);
 }
 
 /// Tries all changes at a cell. Returns whether one was made.
-bool improve_cell(CellMesh& mesh, int c, double wanted) {
+bool improve_cell(CellMesh& mesh, int c) {
   const Cell cell = mesh.cells()[c];
   const int n = n_corners(cell);
   bool moved = false;
   for (int k = 0; k < n; ++k)
-    if (mesh.is_free(cell[k])) moved |= relocate(mesh, cell[k]) > kGain;
-  if (mesh.quality(c) >= wanted) return true;
+    if (mesh.quality(c) < kPoor ? !mesh.is_fixed(cell[k]) : mesh.is_free(cell[k]))
+      moved |= relocate(mesh, cell[k]) > kGain;
+  if (mesh.quality(c) >= kWanted) return true;
+  if (is_pyramid(cell) && open_quad(mesh, c)) return true;
   for (int i = 0; i < n && n == 4; ++i)
     for (int j = i + 1; j < n; ++j)
       if (remove_edge(mesh, cell[i], cell[j])) return true;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
-      if (i != j && mesh.is_free(cell[i]) && collapse(mesh, cell[i], cell[j])) return true;
+      if (i != j && mesh.is_free(cell[i]) && collapse(mesh, cell[i], cell[j], kGain)) return true;
   return moved;
+}
+
+/// Improves the cells that list() returns, worst first, until nothing changes or rounds end.
+void improve_all(CellMesh& mesh, int rounds, const auto& list) {
+  for (bool changed = true; changed && rounds > 0; --rounds) {
+    std::vector<std::pair<double, int>> bad;
+    for (const int c : list())
+      if (mesh.is_alive(c) && mesh.quality(c) < kWanted) bad.emplace_back(mesh.quality(c), c);
+    std::ranges::sort(bad);
+    changed = false;
+    for (const auto& [quality, c] : bad)
+      if (mesh.is_alive(c) && mesh.quality(c) < kWanted) changed |= improve_cell(mesh, c);
+  }
+}
+
+/// Divides a hexahedron or prism by its center.
+int divide(CellMesh& mesh, int c) {
+  const Cell cell = mesh.cells()[c];
+  const int n = n_corners(cell);
+  Vec3 centre;
+  for (int k = 0; k < n; ++k) centre = centre + (1.0 / n) * mesh.points()[cell[k]];
+  const int m = mesh.add_point(centre);
+  mesh.remove(c);
+  const std::span<const int> nodes = std::span(cell).first(n);
+  const Solid solid{&solid_shape(n == 8 ? CellShape::kHexahedron : CellShape::kPrism), nodes};
+  for (int k = 0; k < static_cast<int>(solid.shape->sides.size()); ++k) {
+    const auto [q, r, s, t] = solid.side(k);
+    mesh.add(t < 0 ? cell_of(std::array{q, s, r, m}) : cell_of(std::array{q, t, s, r, m}));
+  }
+  return m;
+}
+
+/// Returns the cells at the vertices of a list.
+std::vector<int> cells_at(const CellMesh& mesh, const std::vector<int>& vertices) {
+  std::vector<int> cells;
+  for (const int v : vertices) cells.insert(cells.end(), mesh.at(v).begin(), mesh.at(v).end());
+  sort_unique(cells);
+  return cells;
 }
 
 }  // namespace
@@ -163,17 +228,67 @@ double relocate(CellMesh& mesh, int v) {
   return mesh.least(mesh.at(v)) - before;
 }
 
-void improve(CellMesh& mesh, double wanted) {
+void improve(CellMesh& mesh) {
   constexpr int kRounds = 10;
+  improve_all(mesh, kRounds, [&] { return std::views::iota(0, static_cast<int>(mesh.cells().size())); });
+}
+
+void divide_blocks(CellMesh& mesh) {
+  constexpr int kRounds = 3, kLocalRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<std::pair<double, int>> bad;
+    std::vector<std::pair<double, int>> poor;
     for (int c = 0; c < static_cast<int>(mesh.cells().size()); ++c)
-      if (mesh.is_alive(c) && mesh.quality(c) < wanted) bad.emplace_back(mesh.quality(c), c);
-    std::ranges::sort(bad);
+      if (mesh.is_alive(c) && mesh.quality(c) < kPoor) poor.emplace_back(mesh.quality(c), c);
+    std::ranges::sort(poor);
     bool changed = false;
-    for (const auto& [quality, c] : bad)
-      if (mesh.is_alive(c) && mesh.quality(c) < wanted) changed |= improve_cell(mesh, c, wanted);
+    for (const auto& [quality, c] : poor) {
+      if (!mesh.is_alive(c) || mesh.quality(c) >= kPoor) continue;
+      const Cell cell = mesh.cells()[c];
+      const std::vector<int> corners(cell.begin(), cell.begin() + n_corners(cell));
+      // Blocks by the number of common vertices, most first.
+      std::vector<std::pair<int, int>> blocks;
+      for (const int b : cells_at(mesh, corners)) {
+        if (!is_block(mesh.cells()[b])) continue;
+        const auto shared =
+            std::ranges::count_if(corners, [&](int v) { return has_corner(mesh.cells()[b], v); });
+        if (b == c || shared > 1) blocks.emplace_back(-static_cast<int>(shared), b);
+      }
+      std::ranges::sort(blocks);
+      const double before = mesh.least(cells_at(mesh, corners));
+      double best = before + kGain;
+      int chosen = -1;
+      const auto attempt = [&](int b) {
+        std::vector<int> around = corners;
+        around.push_back(divide(mesh, b));
+        improve_all(mesh, kLocalRounds, [&] { return cells_at(mesh, around); });
+        return mesh.least(cells_at(mesh, around));
+      };
+      for (const auto& [shared, b] : blocks) {
+        const std::size_t state = mesh.state();
+        const double least = attempt(b);
+        mesh.undo(state);
+        if (least > best) best = least, chosen = b;
+        if (best >= kPoor) break;
+      }
+      if (chosen < 0) continue;
+      attempt(chosen);
+      changed = true;
+    }
     if (!changed) break;
+  }
+}
+
+void coarsen(CellMesh& mesh) {
+  for (int v = 0; v < static_cast<int>(mesh.points().size()); ++v) {
+    if (mesh.at(v).empty() || !mesh.is_free(v)) continue;
+    std::vector<int> beside;
+    for (const int c : mesh.at(v))
+      for (int k = 0; k < n_corners(mesh.cells()[c]); ++k)
+        if (mesh.cells()[c][k] != v) beside.push_back(mesh.cells()[c][k]);
+    sort_unique(beside);
+    const double gain = std::min(0.0, kEnough - mesh.least(mesh.at(v)));
+    for (const int w : beside)
+      if (collapse(mesh, v, w, gain)) break;
   }
 }
 
