@@ -197,7 +197,7 @@ class CurveMesher {
     const auto fold = [&](Vec2 at, Vec2 x) {
       return symmetry != nullptr ? symmetry->reflect(symmetry->folds_of(at), x) : x;
     };
-    add_dangling_edges(model_, size, fold, chain_, pieces_);
+    add_dangling_edges(model_, size, mesh(), fold, chain_, pieces_);
     make_even();
     follow_masters(model_, images_, pieces_);
   }

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/predicates.h"
-#include "features/embedded/embedded_pieces.h"
+#include "features/embedded/dangling_edges.h"
 #include "geometry/mesh/half_edges.h"
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/planar/domain_builder.h"
@@ -153,28 +153,14 @@ std::vector<int> single_points(const Mesh& lines) {
 /// Returns the curve of the edges at single points.
 int add_dangling_edges(Mesh& lines, const std::vector<int>& points, const SizeField& size,
                        const std::string& source) {
-  std::vector<std::shared_ptr<const Curve>> shapes;
-  std::vector<CurveSpan> spans;
-  for (const auto& [a, b] : lines.lines) {
-    shapes.push_back(make_segment(flat(lines.points[a]), flat(lines.points[b])));
-    spans.emplace_back(*shapes.back(), 0, 1);
-  }
-  std::vector<Vec2> at;
-  std::vector<double> sizes;
-  int hint = -1;
-  for (const int v : points) {
-    at.push_back(flat(lines.points[v]));
-    sizes.push_back(size.at(lines.points[v], hint));
-  }
-  const std::vector<std::string> labels(points.size(), source + ": the point");
-  const auto ends = dangling_ends(spans, at, sizes, labels);
+  const auto ends = dangling_ends(lines, points, size, [&](std::size_t) { return source + ": the point"; });
   const int curve = static_cast<int>(lines.curves.size());
   lines.curves.push_back({});
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (const Vec2 end : ends[i]) {
+    for (const Vec3& end : ends[i]) {
       lines.lines.push_back({points[i], static_cast<int>(lines.points.size())});
       lines.line_curve.push_back(curve);
-      lines.points.push_back({end.x, end.y, lines.points[points[i]].z});
+      lines.points.push_back(end);
     }
   return curve;
 }
