@@ -47,6 +47,7 @@ DanglingEdges::DanglingEdges(const Mesh& mesh, const std::vector<int>& points)
 std::optional<std::array<Vec3, 2>> DanglingEdges::ends(std::size_t point, const Vec3& normal, double size,
                                                        const std::function<Vec3(const Vec3&)>& onto) {
   const Vec3 x = segments_[first_point_ + point][0];
+  if (distance(point, x) < kShortestDangling * size) return std::nullopt;
   const bool along_x = std::abs(normal.x) > std::abs(normal.y);
   Vec3 u = cross(normal, along_x ? Vec3{0, 1, 0} : Vec3{1, 0, 0});
   u = (1 / norm(u)) * u;
@@ -99,11 +100,11 @@ double DanglingEdges::distance(std::size_t point, const Vec3& x) const {
   return best;
 }
 
-std::string no_room_for_edges(double size, const Vec3& x) {
+std::string no_room_for_edges(double size, const std::string& place) {
   return fmt::format(
       "is nearer than a thousandth of the size, {:g}, to a curve or another point at {}: "
       "expected them farther apart, or at the same place [embedded-too-near]",
-      size, show_point(x));
+      size, place);
 }
 
 std::vector<std::array<Vec3, 2>> dangling_ends(const Mesh& lines, const std::vector<int>& points,
@@ -116,7 +117,7 @@ std::vector<std::array<Vec3, 2>> dangling_ends(const Mesh& lines, const std::vec
     const Vec3& x = lines.points[points[i]];
     const double length = size.at(x, hint);
     const auto ends = dangling.ends(i, {0, 0, 1}, length, [](const Vec3& end) { return end; });
-    if (!ends) throw InputError(label(i) + " " + no_room_for_edges(length, x));
+    if (!ends) throw InputError(label(i) + " " + no_room_for_edges(length, show_point(Vec2{x.x, x.y})));
     all.push_back(*ends);
   }
   return all;

@@ -41,8 +41,8 @@ class DanglingEdges {
   std::vector<Segment> taken_;
 };
 
-/// Returns why a point at x has no edges, after its label.
-std::string no_room_for_edges(double size, const Vec3& x);
+/// Returns why a point at a place has no edges, after its label.
+std::string no_room_for_edges(double size, const std::string& place);
 
 /// Returns the ends for each of these points of a plane, by the lines of a mesh. Throws InputError, with the
 /// label of the point, if there is no room.

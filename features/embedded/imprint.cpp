@@ -352,7 +352,7 @@ class Imprinter {
       const auto ends =
           dangling.ends(i, normal, size, [&](const Vec3& x) { return places_.find(x, editor_).at; });
       if (!ends) {
-        refuse(*lines[i], no_room_for_edges(size, mesh_.points[points[i]]));
+        refuse(*lines[i], no_room_for_edges(size, show_point(mesh_.points[points[i]])));
         std::erase_if(placed,
                       [&](const Placed& p) { return p.nodes.size() == 1 && p.nodes[0] == points[i]; });
         continue;
