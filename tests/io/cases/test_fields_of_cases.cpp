@@ -245,10 +245,10 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesFollowTheBoundary) {
   ASSERT_EQ(aware.patches.size(), 2u);
   EXPECT_EQ(aware.crosses.index_sum_and_expected, aligned.crosses.index_sum_and_expected);
   EXPECT_EQ(aware.crosses.dislocations->first, aware.crosses.dislocations->second);
-  int hint = -1;
   for (const MeshingSetup* setup : {&aligned, &aware})
     for (const PatchSetup& patch : setup->patches)
       for (const auto& [i, j] : patch.boundary.edges) {
+        int hint = -1;
         const Vec2 a = patch.boundary.points[i], b = patch.boundary.points[j];
         const Cross along = Cross::along(b - a), z = patch.cross->at(0.5 * (a + b), hint);
         EXPECT_NEAR(z.c * along.s - z.s * along.c, 0, 1e-9);
