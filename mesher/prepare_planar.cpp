@@ -102,7 +102,7 @@ std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh&
                       spec.where + ": the cross function", p.warnings);
 }
 
-/// Returns the cross field of the whole domain.
+/// Returns the cross field of the whole domain; null: patches get their own, see make_crosses_size_aware().
 std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
                                              const std::shared_ptr<const CrossField>& given,
                                              MeshingSetup& p) {
@@ -111,6 +111,7 @@ std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
     return make_gradient_cross(p.size.field, kGradientStep * diagonal(p.boundary));
   if (cross.kind == CrossKind::kField)
     return problem.seed == 0 ? given : rotated(given, Rotation::by_seed(problem.seed));
+  if (cross.kind == CrossKind::kSizeAware) return nullptr;
   auto field = std::make_shared<HarmonicCrossField>(p.plane.background);
   for (const Singularity& s : field->singularities())
     p.crosses.singularities.push_back({{s.at.x, s.at.y, 0}, s.index});
@@ -200,11 +201,11 @@ class PlanarSteps final : public ModelSteps {
       p.given_worst = worst_of_given(assemble(p, p.boundary.points, given, none), true, *p.size.field);
     }
     for (PatchImage& image : domain_.images) p.patches[image.patch].image = std::move(image);
-    add_grids(problem_.mapped, domain_.mapped, p);
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
     if (problem_.cross.kind == CrossKind::kMade) use_made_crosses(problem_.cross, p);
     if (problem_.cross.kind == CrossKind::kMetric)
       make_crosses_size_aware(p, [&](int, Vec2 u, int& hint) { return p.metric_plane->pull_at(u, hint); });
+    add_grids(problem_.mapped, domain_.mapped, p);
     if (p.metric_plane)
       for (PlacedSingularity& s : p.crosses.singularities) s.at = p.metric_plane->to_plane(s.at);
     if (p.crosses.index_sum_and_expected) check_index_sum(problem_, p);

@@ -158,8 +158,8 @@ class ResolvingSize final : public ParametricSize {
   const BackgroundMesh& domain_;
 };
 
-std::shared_ptr<const BackgroundMesh> resolve_size(const PatchSetup& patch) {
-  const BackgroundMesh domain(constrained_delaunay(patch.boundary));
+/// `domain`: the triangles between the nodes of the patch's boundary.
+std::shared_ptr<const BackgroundMesh> resolve_size(const PatchSetup& patch, const BackgroundMesh& domain) {
   const ResolvingSize size(*patch.size, kLargestPart * std::sqrt(area(patch.boundary)), domain);
   return std::make_shared<BackgroundMesh>(
       mesh_frontal(patch.boundary, *make_l2_frontal(), *patch.cross, size));
@@ -173,7 +173,9 @@ void make_crosses_size_aware(MeshingSetup& prepared, const PatchPullAt& pull) {
   std::vector<std::shared_ptr<const BackgroundMesh>> backgrounds(patches.size());
   const auto resolve = [&](std::size_t i) {
     const FaceScope face = patch_scope(prepared, i);
-    backgrounds[i] = resolve_size(patches[i]);
+    const auto domain = std::make_shared<BackgroundMesh>(constrained_delaunay(patches[i].boundary));
+    if (!patches[i].cross) patches[i].cross = std::make_shared<HarmonicCrossField>(domain);
+    backgrounds[i] = resolve_size(patches[i], *domain);
   };
   parallel_for(patches.size(), resolve, n_points);
 
@@ -234,7 +236,8 @@ double expected_row_ends(const MeshingSetup& prepared) {
       [&](std::size_t i) {
         const PatchSetup& patch = prepared.patches[i];
         const FaceScope face = patch_scope(prepared, i);
-        ends[i] = expected_dislocations(*resolve_size(patch), *patch.cross, *patch.size);
+        const BackgroundMesh domain(constrained_delaunay(patch.boundary));
+        ends[i] = expected_dislocations(*resolve_size(patch, domain), *patch.cross, *patch.size);
       },
       [&](std::size_t i) { return static_cast<double>(prepared.patches[i].boundary.points.size()); });
   return std::reduce(ends.begin(), ends.end());

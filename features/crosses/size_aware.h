@@ -14,8 +14,9 @@ namespace delquad {
 /// SizeField::at.
 using PatchPullAt = std::function<CrossPull(int patch, Vec2 u, int& hint)>;
 /// Replaces the boundary-aligned field of each patch by the size-aware one, on a background mesh that
-/// resolves delta'. Stores singularities, the sum of indices and dislocations. A null `pull` draws to
-/// nothing. Own method (docs/algorithms.md, cross field).
+/// resolves delta'. A patch without a field first gets the harmonic one of its boundary's triangulation.
+/// Stores singularities, the sum of indices and dislocations. A null `pull` draws to nothing. Own method
+/// (docs/algorithms.md, cross field).
 void make_crosses_size_aware(MeshingSetup& prepared, const PatchPullAt& pull = nullptr);
 
 /// Returns the expected number of rows of quads that must end along the fields of all patches to keep the

@@ -220,7 +220,7 @@ TEST_F(Cases, RowsEndWhereCirclesDiffer) {
   EXPECT_NEAR(ends, 2 * std::numbers::pi * 0.6 / 0.025, 30);
   EXPECT_NEAR(expected_row_ends(prepare_case(read(square_ + "size = 0.025\n"))), 0, 1e-6);
   const MeshingSetup aware = prepare_case(read(ring + "size = 0.025\ncross = 'size-aware'\n"));
-  EXPECT_EQ(expected_row_ends(aware), ends);
+  EXPECT_GT(expected_row_ends(aware), 2 * std::numbers::pi * 0.6 / 0.025);
 }
 
 // The finer the mesh, the more rows end; the size-aware field keeps its part of them.
@@ -235,7 +235,7 @@ TEST_F(Cases, SizeAwareCrossesScaleWithTheSize) {
   EXPECT_NEAR(fine.second, 4 * coarse.second, 0.1 * fine.second);
 }
 
-TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
+TEST_F(Cases, SizeAwareCrossesOfConstantSizesFollowTheBoundary) {
   // Two patches: a square and the square inside it.
   const std::string text = square_ +
                            "pattern = { polygon = [[0.4, 0.3], [0.7, 0.4], [0.6, 0.7], [0.3, 0.6]], region = "
@@ -245,14 +245,14 @@ TEST_F(Cases, SizeAwareCrossesOfConstantSizesAreTheBoundarys) {
   ASSERT_EQ(aware.patches.size(), 2u);
   EXPECT_EQ(aware.crosses.index_sum_and_expected, aligned.crosses.index_sum_and_expected);
   EXPECT_EQ(aware.crosses.dislocations->first, aware.crosses.dislocations->second);
-  int hint = -1, other = -1;
-  for (std::size_t i = 0; i < aware.patches.size(); ++i) {
-    for (const Vec2 u : aware.patches[i].boundary.points) {
-      const Cross a = aligned.patches[i].cross->at(u, hint), b = aware.patches[i].cross->at(u, other);
-      EXPECT_EQ(a.c, b.c);
-      EXPECT_EQ(a.s, b.s);
-    }
-  }
+  for (const MeshingSetup* setup : {&aligned, &aware})
+    for (const PatchSetup& patch : setup->patches)
+      for (const auto& [i, j] : patch.boundary.edges) {
+        int hint = -1;
+        const Vec2 a = patch.boundary.points[i], b = patch.boundary.points[j];
+        const Cross along = Cross::along(b - a), z = patch.cross->at(0.5 * (a + b), hint);
+        EXPECT_NEAR(z.c * along.s - z.s * along.c, 0, 1e-9);
+      }
 }
 
 TEST_F(Cases, OptionsReachTheStages) {
