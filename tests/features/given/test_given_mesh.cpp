@@ -292,7 +292,7 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
     pinched.points.push_back(at);
   pinched.triangles = {{12, 25, 26}, {12, 26, 27}, {12, 27, 25}};
   pinched.triangle_region = {0, 0, 0};
-  expect_input_error([&] { improve_given(pinched, "CO"); }, {"cover each other"});
+  expect_input_error([&] { improve_given(pinched, "CO"); }, {"overlap"});
 
   Mesh island = grid;  // a second grid lies on the first one, and shares no node
   for (const Vec3& p : grid.points) island.points.push_back({0.1 + p.x / 2, 0.1 + p.y / 2, 3});
@@ -301,7 +301,7 @@ TEST(GivenMeshes, WhatCannotBeUsedIsNamed) {
     island.quads.push_back(quad);
   }
   island.quad_region.resize(island.quads.size(), 0);
-  expect_input_error([&] { improve_given(island, "CO"); }, {"cover each other"});
+  expect_input_error([&] { improve_given(island, "CO"); }, {"overlap"});
 
   // A hole of which one corner was drawn over the opposite side.
   Mesh inside_out = halved(given_grid(6), 2);
