@@ -79,6 +79,23 @@ TEST(Layers, EndByPrismsAtOtherFaces) {
   EXPECT_EQ(two.hexahedra.size(), 3u * 2 * 4 * 5);
 }
 
+TEST(Layers, EndAroundSingleQuads) {
+  Mesh skin = with_sides(cube(8));
+  skin.regions.push_back({7, {"bare"}});
+  for (std::size_t q = 0; q < skin.quads.size(); ++q) {
+    Vec3 middle;
+    for (const int v : skin.quads[q]) middle = middle + 0.25 * skin.points[v];
+    for (const double at : {-0.375, 0.125})
+      if (norm(middle - Vec3{at, at, -1}) < 1e-9) skin.quad_region[q] = 6;
+  }
+  VolumeOptions options = layers(0.02, 4, {"z-"}, kAroundLayers);
+  options.layers->growth = 1;
+  const Mesh mesh = filled(skin, options, 8);
+  EXPECT_EQ(mesh.hexahedra.size(), 4u * (6 * 6 - 17));
+  // Two at each rim, and where one corner is an end, on all layers but the first.
+  EXPECT_EQ(mesh.prisms.size(), 4u * (24 + 8) + 3 * 6);
+}
+
 TEST(Layers, StandOnRowsOfOtherFaces) {
   // The sides have four rows of the layers' heights above z = -1.
   const double heights[] = {0.02, 0.05, 0.095, 0.1625};
