@@ -37,6 +37,8 @@ constexpr double kSameNormal = 1e-12;
 /// Heights shrink by this where cells or fronts are not sound, so often before layers end.
 constexpr double kShrink = 0.6;
 constexpr int kShrinks = 6;
+/// Cells get positive soon or never: their shrinking counts so often.
+constexpr int kShrinkOfCells = 3;
 /// Rows of quads serve as sides of layers if their heights differ by this factor at most.
 constexpr double kSimilar = 2;
 
@@ -96,17 +98,15 @@ class LayerGrower {
 
   /// Places points and cells; layers shrink until all cells are positive and fronts do not cross.
   void grow() {
-    std::vector<int> poor;
     do {
       check_cancelled();
       settle();
       place();
-      poor = poor_quads();
-    } while (shrink(poor));
+    } while (shrink(quads_of_poor_cells(), kShrinkOfCells) || shrink(quads_of_crossings()));
   }
 
-  /// Lets layers shrink at quads of the body; returns whether there are any.
-  bool shrink(const std::vector<int>& quads) {
+  /// Lets layers shrink at quads of the body, which counts so often; returns whether there are any.
+  bool shrink(const std::vector<int>& quads, int times = 1) {
     std::vector<char> done(at_.size(), 0);
     bool any = false;
     for (const int q : quads)
@@ -115,7 +115,8 @@ class LayerGrower {
         if ((at.kind != Kind::kFree && at.kind != Kind::kRows) || std::exchange(done[v], 1) != 0) continue;
         any = true;
         at.limit *= kShrink;
-        if (++at.shrinks > kShrinks) at.kind = Kind::kEnd;
+        at.shrinks += times;
+        if (at.shrinks > kShrinks) at.kind = Kind::kEnd;
       }
     return any;
   }
@@ -484,8 +485,8 @@ class LayerGrower {
     }
   }
 
-  /// The quads of the body at which cells are not proven positive, or fronts cross.
-  std::vector<int> poor_quads() const {
+  /// The quads of the body at which cells are not proven positive.
+  std::vector<int> quads_of_poor_cells() const {
     std::vector<int> quads(n_solids(cells_), -1);
     parallel_each(quads.size(), [&](std::size_t i) {
       const Solid cell = solid_at(cells_, i);
@@ -494,7 +495,12 @@ class LayerGrower {
       if (!is_positive(std::span(corners).first(cell.nodes.size()))) quads[i] = cell.volume;
     });
     std::erase(quads, -1);
-    if (!quads.empty()) return quads;
+    return quads;
+  }
+
+  /// The quads of the body at which fronts cross.
+  std::vector<int> quads_of_crossings() const {
+    std::vector<int> quads;
     std::vector<Quad> front;
     std::vector<std::array<int, 3>> triangles;
     for (const auto& [quad, of] : front_) front.push_back(quad);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/context.h"
 #include "delquad/model.h"
 #include "tests/features/volume/volume_checks.h"
 
@@ -166,6 +167,18 @@ TEST(Layers, GrowInAllBodies) {
   const Mesh mesh = filled(skin, layers(0.05, 2, {}, kAroundLayers), 64);
   EXPECT_EQ(mesh.volumes.size(), 2u);
   EXPECT_EQ(mesh.hexahedra.size(), 2u * (skin.quads.size() + 16));
+}
+
+TEST(Layers, ShrinkToTheSameBytesOnAnyNumberOfThreads) {
+  const Mesh skin = cube_surface(6, [](const Vec3& p) { return Vec3{p.x, p.y, 0.3 * p.z * (1.2 + p.x)}; });
+  const auto by_threads = [&](int threads) {
+    const RunScope run({.threads = threads});
+    return fill_skin(skin, layers(0.05, 4));
+  };
+  const Mesh one = by_threads(1), two = by_threads(2);
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.hexahedra, two.hexahedra);
+  EXPECT_EQ(one.tetrahedra, two.tetrahedra);
 }
 
 TEST(Layers, AreRefused) {
