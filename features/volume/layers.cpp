@@ -37,6 +37,8 @@ constexpr double kSameNormal = 1e-12;
 /// Heights shrink by this where cells or fronts are not sound, so often before layers end.
 constexpr double kShrink = 0.6;
 constexpr int kShrinks = 6;
+/// Cells get positive soon or never: their shrinking counts so often.
+constexpr int kShrinkOfCells = 3;
 /// Rows of quads serve as sides of layers if their heights differ by this factor at most.
 constexpr double kSimilar = 2;
 
@@ -96,17 +98,15 @@ class LayerGrower {
 
   /// Places points and cells; layers shrink until all cells are positive and fronts do not cross.
   void grow() {
-    std::vector<int> poor;
     do {
       check_cancelled();
       settle();
       place();
-      poor = poor_quads();
-    } while (shrink(poor));
+    } while (shrink(quads_of_poor_cells(), kShrinkOfCells) || shrink(quads_of_crossings()));
   }
 
-  /// Lets layers shrink at quads of the body; returns whether there are any.
-  bool shrink(const std::vector<int>& quads) {
+  /// Lets layers shrink at quads of the body, which counts so often; returns whether there are any.
+  bool shrink(const std::vector<int>& quads, int times = 1) {
     std::vector<char> done(at_.size(), 0);
     bool any = false;
     for (const int q : quads)
@@ -115,7 +115,8 @@ class LayerGrower {
         if ((at.kind != Kind::kFree && at.kind != Kind::kRows) || std::exchange(done[v], 1) != 0) continue;
         any = true;
         at.limit *= kShrink;
-        if (++at.shrinks > kShrinks) at.kind = Kind::kEnd;
+        at.shrinks += times;
+        if (at.shrinks > kShrinks) at.kind = Kind::kEnd;
       }
     return any;
   }
@@ -392,7 +393,7 @@ class LayerGrower {
     std::vector<std::pair<Quad, int>> folded;
     for (int q = 0; q < static_cast<int>(body_.quads.size()); ++q) {
       if (is_side[q] != 0) continue;
-      const int turn = has_layers_[q] != 0 ? fold_of(q) : -1;
+      const int turn = has_layers_[q] != 0 ? fold_of(body_.quads[q]) : -1;
       Quad top = body_.quads[q];
       if (has_layers_[q] != 0) {
         for (int& v : top) v = point(v, heights_.size());
@@ -405,42 +406,62 @@ class LayerGrower {
     front_.insert(front_.end(), folded.begin(), folded.end());
   }
 
-  /// The corner of a quad where alone layers stand; -1: there is no single one.
-  int fold_of(int q) const {
-    const auto stands = [&](int v) { return at_[v].kind != Kind::kEnd; };
-    const Quad& quad = body_.quads[q];
-    if (std::ranges::count_if(quad, stands) != 1) return -1;
-    return static_cast<int>(std::ranges::find_if(quad, stands) - quad.begin());
+  bool stands(int v) const { return at_[v].kind != Kind::kEnd; }
+
+  /// The first corner of the diagonal that tops of layers are folded along; -1: they are quads. Layers stand
+  /// at both its ends, or at the first alone.
+  int fold_of(const Quad& quad) const {
+    const auto n = std::ranges::count_if(quad, [&](int v) { return stands(v); });
+    for (int k = 0; k < 4 && n > 0 && n < 4; ++k)
+      if (stands(quad[k]) && (n == 1 || stands(quad[(k + 2) % 4]))) return k;
+    return -1;
   }
 
-  /// Adds a hexahedron of a layer, or what is left of it: a prism, or pyramids and tetrahedra.
+  /// Adds a hexahedron of a layer, or what is left of it where corners are ends.
   void add_cells(int q, std::size_t level) {
     Quad quad = body_.quads[q];
-    std::reverse(quad.begin(), quad.end());
-    const auto is_end = [&](int k) { return at_[quad[k]].kind == Kind::kEnd; };
-    const auto n_ends = std::ranges::count_if(std::array{0, 1, 2, 3}, is_end);
+    std::ranges::reverse(quad);
+    const auto n_ends = std::ranges::count_if(quad, [&](int v) { return !stands(v); });
     if (n_ends == 4) return;
-    // Ends come first, but a single corner that stands does.
-    for (int k = 0; k < 4 && n_ends > 0; ++k) {
-      if (n_ends == 3 ? !is_end(0) : is_end(0) && (is_end(1) || n_ends == 1)) break;
-      std::rotate(quad.begin(), quad.begin() + 1, quad.end());
-    }
+    const int fold = fold_of(quad);
+    while (n_ends > 0 && fold < 0 && (stands(quad[0]) || stands(quad[1])))
+      std::ranges::rotate(quad, quad.begin() + 1);
+    std::ranges::rotate(quad, quad.begin() + std::max(fold, 0));
     std::array<int, 8> hex;
     for (int k = 0; k < 4; ++k) hex[k] = point(quad[k], level), hex[k + 4] = point(quad[k], level + 1);
     if (n_ends == 0) {
       cells_.hexahedra.push_back(hex), cells_.hex_volume.push_back(q);
-    } else if (n_ends == 2 && is_end(1)) {
+    } else if (fold < 0) {
       cells_.prisms.push_back({hex[0], hex[3], hex[7], hex[1], hex[2], hex[6]});
       cells_.prism_volume.push_back(q);
-    } else if (n_ends < 3) {
-      add_around_middle(hex, q);
-    } else if (level == 0) {
+    } else if (level > 0) {
+      add_half(hex, 1, 2, q), add_half(hex, 2, 3, q);
+    } else if (n_ends == 3) {
       cells_.pyramids.push_back({hex[0], hex[1], hex[2], hex[3], hex[4]}), cells_.pyramid_volume.push_back(q);
     } else {
-      cells_.tetrahedra.push_back({hex[0], hex[1], hex[2], hex[4]});
-      cells_.tetrahedra.push_back({hex[0], hex[2], hex[3], hex[4]});
-      cells_.tet_volume.resize(cells_.tetrahedra.size(), q);
+      add_around_middle(hex, q);
     }
+  }
+
+  /// Adds the half of a folded hexahedron at corners 0, i and j.
+  void add_half(const std::array<int, 8>& hex, int i, int j, int q) {
+    std::array<int, 3> low = {0, i, j};
+    const auto is_end = [&](int k) { return hex[k] == hex[k + 4]; };
+    // An end is the first of two, and the last of all.
+    for (int turn = 0; turn < 2 && (is_end(low[0]) || !is_end(low[2])); ++turn)
+      std::ranges::rotate(low, low.begin() + 1);
+    const auto [a, b, c] = std::array{hex[low[0]], hex[low[1]], hex[low[2]]};
+    const int d = hex[low[0] + 4], e = hex[low[1] + 4], f = hex[low[2] + 4];
+    if (c != f)
+      cells_.prisms.push_back({a, b, c, d, e, f}), cells_.prism_volume.push_back(q);
+    else if (b != e)
+      cells_.pyramids.push_back({a, d, e, b, c}), cells_.pyramid_volume.push_back(q);
+    else
+      add_tetrahedron({a, b, c, d}, q);
+  }
+
+  void add_tetrahedron(const std::array<int, 4>& corners, int q) {
+    cells_.tetrahedra.push_back(corners), cells_.tet_volume.push_back(q);
   }
 
   void add_around_middle(const std::array<int, 8>& hex, int q) {
@@ -450,20 +471,22 @@ class LayerGrower {
     Vec3 sum;
     for (const int v : corners) sum = sum + 1.0 / static_cast<double>(corners.size()) * cells_.points[v];
     cells_.points.push_back(sum);
+    add_tetrahedron({hex[4], hex[6], hex[5], middle}, q),
+        add_tetrahedron({hex[4], hex[7], hex[6], middle}, q);
     for (const Quad& side : solid_shape(CellShape::kHexahedron).sides) {
+      if (std::ranges::min(side) == 4) continue;
       std::vector<int> seen;  // from the middle
       for (int k = 3; k >= 0; --k)
         if (hex[side[k]] != hex[side[(k + 1) % 4]]) seen.push_back(hex[side[k]]);
       if (seen.size() == 4)
         cells_.pyramids.push_back({seen[0], seen[1], seen[2], seen[3], middle}),
             cells_.pyramid_volume.push_back(q);
-      if (seen.size() == 3)
-        cells_.tetrahedra.push_back({seen[0], seen[1], seen[2], middle}), cells_.tet_volume.push_back(q);
+      if (seen.size() == 3) add_tetrahedron({seen[0], seen[1], seen[2], middle}, q);
     }
   }
 
-  /// The quads of the body at which cells are not proven positive, or fronts cross.
-  std::vector<int> poor_quads() const {
+  /// The quads of the body at which cells are not proven positive.
+  std::vector<int> quads_of_poor_cells() const {
     std::vector<int> quads(n_solids(cells_), -1);
     parallel_each(quads.size(), [&](std::size_t i) {
       const Solid cell = solid_at(cells_, i);
@@ -472,7 +495,12 @@ class LayerGrower {
       if (!is_positive(std::span(corners).first(cell.nodes.size()))) quads[i] = cell.volume;
     });
     std::erase(quads, -1);
-    if (!quads.empty()) return quads;
+    return quads;
+  }
+
+  /// The quads of the body at which fronts cross.
+  std::vector<int> quads_of_crossings() const {
+    std::vector<int> quads;
     std::vector<Quad> front;
     std::vector<std::array<int, 3>> triangles;
     for (const auto& [quad, of] : front_) front.push_back(quad);

@@ -2,13 +2,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/context.h"
 #include "delquad/model.h"
 #include "tests/features/volume/volume_checks.h"
 
 namespace delquad::testing_support {
 namespace {
 
-constexpr VolumeCells kInLayers = VolumeCells::kPyramidsAndTets;
+constexpr VolumeCells kAroundLayers = VolumeCells::kPyramidsAndTets;
 
 VolumeOptions layers(double first, int number, std::vector<std::string> on = {},
                      VolumeCells cells = VolumeCells::kHexDominant) {
@@ -62,7 +63,7 @@ double depth_in_cube(const Vec3& p) { return 1 - std::max({std::abs(p.x), std::a
 TEST(Layers, HaveTheirHeightsInACube) {
   const Mesh skin = cube(6);
   ReadNotes notes;
-  const Mesh mesh = filled(skin, layers(0.02, 4, {}, kInLayers), 8, &notes);
+  const Mesh mesh = filled(skin, layers(0.02, 4, {}, kAroundLayers), 8, &notes);
   EXPECT_TRUE(notes.empty());
   EXPECT_EQ(mesh.hexahedra.size(), 4 * skin.quads.size());
   const auto [least, most] = first_heights(mesh, skin.points.size(), depth_in_cube);
@@ -75,8 +76,25 @@ TEST(Layers, EndByPrismsAtOtherFaces) {
   const Mesh mesh = filled(skin, layers(0.02, 3, {"z-"}), 8);
   EXPECT_EQ(mesh.prisms.size(), 3u * 4 * 4);
   EXPECT_GE(mesh.hexahedra.size(), 3u * 16);
-  const Mesh two = filled(skin, layers(0.02, 3, {"z-", "x+"}, kInLayers), 8);
+  const Mesh two = filled(skin, layers(0.02, 3, {"z-", "x+"}, kAroundLayers), 8);
   EXPECT_EQ(two.hexahedra.size(), 3u * 2 * 4 * 5);
+}
+
+TEST(Layers, EndAroundSingleQuads) {
+  Mesh skin = with_sides(cube(8));
+  skin.regions.push_back({7, {"bare"}});
+  for (std::size_t q = 0; q < skin.quads.size(); ++q) {
+    Vec3 middle;
+    for (const int v : skin.quads[q]) middle = middle + 0.25 * skin.points[v];
+    for (const double at : {-0.375, 0.125})
+      if (norm(middle - Vec3{at, at, -1}) < 1e-9) skin.quad_region[q] = 6;
+  }
+  VolumeOptions options = layers(0.02, 4, {"z-"}, kAroundLayers);
+  options.layers->growth = 1;
+  const Mesh mesh = filled(skin, options, 8);
+  EXPECT_EQ(mesh.hexahedra.size(), 4u * (6 * 6 - 17));
+  // Two at each rim, and where one corner is an end, on all layers but the first.
+  EXPECT_EQ(mesh.prisms.size(), 4u * (24 + 8) + 3 * 6);
 }
 
 TEST(Layers, StandOnRowsOfOtherFaces) {
@@ -87,7 +105,7 @@ TEST(Layers, StandOnRowsOfOtherFaces) {
     const double level = std::round((p.z + 1) * 4);
     p.z = level == 0 ? -1 : level <= 4 ? heights[int(level) - 1] - 1 : p.z * 0.8 + 0.2;
   }
-  const Mesh mesh = filled(skin, layers(0.02, 4, {"z-"}, kInLayers), 8);
+  const Mesh mesh = filled(skin, layers(0.02, 4, {"z-"}, kAroundLayers), 8);
   EXPECT_EQ(mesh.hexahedra.size(), 4u * 64);
   EXPECT_TRUE(mesh.prisms.empty());
 }
@@ -104,7 +122,7 @@ TEST(Layers, FollowACylinder) {
   const Mesh box = with_sides(cube(8));
   Mesh skin = box;
   for (Vec3& p : skin.points) p = round(p);
-  double volume = measure(fill_skin(skin, {kInLayers})).volume;
+  double volume = measure(fill_skin(skin, {kAroundLayers})).volume;
   const Mesh mesh = filled(skin, layers(0.02, 4, {"x-", "x+", "y-", "y+"}), volume);
   double least = 1, most = 0;
   for (const auto& hex : mesh.hexahedra)
@@ -122,7 +140,7 @@ TEST(Layers, FollowACylinder) {
 
 TEST(Layers, TurnReentrantEdges) {
   const Mesh skin = skin_of_labels(6, [](int i, int j, int) { return i < 3 || j < 3; });
-  const Mesh mesh = filled(skin, layers(0.1, 3, {}, kInLayers), 162);
+  const Mesh mesh = filled(skin, layers(0.1, 3, {}, kAroundLayers), 162);
   EXPECT_EQ(mesh.hexahedra.size(), 3 * skin.quads.size());
   filled(skin_of_labels(5, [](int i, int j, int k) { return i != 2 || j != 2 || k != 2; }), layers(0.1, 3),
          124);
@@ -131,7 +149,7 @@ TEST(Layers, TurnReentrantEdges) {
 TEST(Layers, ShrinkBetweenNearWalls) {
   const Mesh skin = cube_surface(8, [](const Vec3& p) { return Vec3{p.x, p.y, 0.1 * p.z}; });
   ReadNotes notes;
-  const Mesh mesh = filled(skin, layers(0.05, 4, {}, kInLayers), 0.8, &notes);
+  const Mesh mesh = filled(skin, layers(0.05, 4, {}, kAroundLayers), 0.8, &notes);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("layers are lower"), std::string::npos) << notes[0];
   EXPECT_EQ(mesh.hexahedra.size(), 4 * skin.quads.size());
@@ -146,9 +164,21 @@ TEST(Layers, EndAtEdgesThatBodiesTouchAt) {
 
 TEST(Layers, GrowInAllBodies) {
   const Mesh skin = skin_of_labels(4, [](int i, int, int) { return i < 2 ? 1 : 2; });
-  const Mesh mesh = filled(skin, layers(0.05, 2, {}, kInLayers), 64);
+  const Mesh mesh = filled(skin, layers(0.05, 2, {}, kAroundLayers), 64);
   EXPECT_EQ(mesh.volumes.size(), 2u);
   EXPECT_EQ(mesh.hexahedra.size(), 2u * (skin.quads.size() + 16));
+}
+
+TEST(Layers, ShrinkToTheSameBytesOnAnyNumberOfThreads) {
+  const Mesh skin = cube_surface(6, [](const Vec3& p) { return Vec3{p.x, p.y, 0.3 * p.z * (1.2 + p.x)}; });
+  const auto by_threads = [&](int threads) {
+    const RunScope run({.threads = threads});
+    return fill_skin(skin, layers(0.05, 4));
+  };
+  const Mesh one = by_threads(1), two = by_threads(2);
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.hexahedra, two.hexahedra);
+  EXPECT_EQ(one.tetrahedra, two.tetrahedra);
 }
 
 TEST(Layers, AreRefused) {
