@@ -151,7 +151,7 @@ delquad_module(mesher COLD LINKS base geometry/mesh geometry/planar geometry/sur
                features/seed features/sizes features/crosses features/divisions features/embedded features/symmetry features/periodic
                features/grids features/washers features/layers features/scaling features/thin features/given features/curved
                features/curves features/metric features/naming features/midsurface metrics/judgement)
-delquad_module(mesher/adapt COLD LINKS base geometry/mesh geometry/surface algorithms/fields features/given mesher PRIVATE Eigen3::Eigen)
+delquad_module(mesher/adapt COLD LINKS base geometry/mesh algorithms/fields mesher PRIVATE Eigen3::Eigen)
 
 if(DELQUAD_PROGRAMS)
   delquad_shared(delquad_bench delquad_bench)

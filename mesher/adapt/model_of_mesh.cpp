@@ -9,10 +9,7 @@
 
 #include "base/located.h"
 #include "base/text.h"
-#include "features/given/given_surface.h"
 #include "geometry/mesh/half_edges.h"
-#include "geometry/surface/chart.h"
-#include "geometry/surface/curve_chains.h"
 #include "mesher/adapt/adapt.h"
 #include "mesher/adapt/elements.h"
 
@@ -91,42 +88,35 @@ class SmoothChain final : public Curve {
   std::vector<double> nodes_;  ///< parameters at which the mesh has nodes
 };
 
-/// Traces a mesh that is seen as a flat surface.
+/// A side that becomes an edge again.
+struct Side {
+  std::array<int, 2> nodes;
+  int curve;                   ///< curve in the mesh; one more: it has no line
+  std::array<int, 2> regions;  ///< regions of the elements left and right of it; -1: none
+};
+
 class MeshTracer {
  public:
-  explicit MeshTracer(GivenMesh mesh)
-      : surface_(make_flat_surface(mesh)), mesh_(std::move(mesh.mesh)), sides_at_(mesh_.points.size()) {}
+  explicit MeshTracer(const Mesh& mesh) : mesh_(mesh), sides_at_(mesh.points.size()) {}
 
   PlanarModel trace() {
     find_sides();
     refuse_cracks();
     mark_ends();
-    for (const EdgeChain& chain : chain_edges(sides_, [&](int v) { return is_end_[v] != 0; })) add(chain);
+    curve_of_.assign(sides_.size(), -1);
+    for (int s = 0; s < std::ssize(sides_); ++s)
+      for (const int v : sides_[s].nodes)
+        if (is_end_[v] && curve_of_[s] < 0) follow(s, v);
+    for (int s = 0; s < std::ssize(sides_); ++s)
+      if (curve_of_[s] < 0) follow(s, sides_[s].nodes[0]);
     add_loops();
+    for (const NamedPoint& named : mesh_.named_points)
+      made_.points.push_back(
+          {flat(mesh_.points[named.point]), std::to_string(&named - mesh_.named_points.data()), ""});
     return std::move(made_);
   }
 
  private:
-  int at(int fine_point) const { return surface_.given_point[fine_point]; }
-  Vec2 place(int v) const { return flat(mesh_.points[v]); }
-
-  /// Sides that become edges again are lines of the surface, but not those beside single points and lines.
-  void find_sides() {
-    const SurfaceModel& model = surface_.model;
-    std::set<int> helpers;
-    for (const EmbeddedCurve& embedded : model.embedded)
-      if (surface_.given_curve[embedded.curve] < 0) helpers.insert(embedded.curve);
-    for (std::size_t l = 0; l < model.fine.lines.size(); ++l) {
-      const auto [a, b] = model.fine.lines[l];
-      const int curve = model.fine.line_curve[l], given = surface_.given_curve[curve];
-      if (helpers.contains(curve)) continue;
-      for (const int v : {at(a), at(b)}) sides_at_[v].push_back(static_cast<int>(sides_.size()));
-      side_of_[std::minmax({at(a), at(b)})] = static_cast<int>(sides_.size());
-      sides_.push_back({at(a), at(b)});
-      name_.push_back(given < 0 ? static_cast<int>(mesh_.curves.size()) : given);
-    }
-  }
-
   /// Refuses two points at the same place, since a curve would close the opening.
   void refuse_cracks() const {
     std::vector<std::array<double, 2>> places;
@@ -138,103 +128,151 @@ class MeshTracer {
              show_point(Vec2{(*twice)[0], (*twice)[1]}));
   }
 
+  void find_sides() {
+    std::map<std::pair<int, int>, int> curve_of;
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
+      curve_of[std::minmax(mesh_.lines[l][0], mesh_.lines[l][1])] = mesh_.line_curve[l];
+    const auto n_curves = static_cast<int>(mesh_.curves.size());
+    std::vector<char> is_clockwise;
+    for_each_element(mesh_, [&](int, const auto& v) {
+      const Vec2 a = flat(mesh_.points[v[0]]), c = flat(mesh_.points[v[2]]);
+      is_clockwise.push_back(cross(c - a, flat(mesh_.points[v.back()] - mesh_.points[v[1]])) < 0);
+    });
+    for_each_edge(sorted_half_edges(mesh_), [&](std::span<const HalfEdge> edge) {
+      if (edge.size() > 2)
+        refuse("more than two elements meet at {}: expected a planar mesh",
+               show_point(mesh_.points[edge[0].lo]));
+      const int lo = edge[0].lo, hi = edge[0].hi;
+      std::array<int, 2> regions{-1, -1};
+      for (const HalfEdge& side : edge)
+        regions[side.forward == (is_clockwise[side.element] == 0) ? 0 : 1] = region_of(mesh_, side.element);
+      const auto line = curve_of.find({lo, hi});
+      if (line == curve_of.end() && regions[0] == regions[1]) return;
+      for (const int v : {lo, hi}) sides_at_[v].push_back(static_cast<int>(sides_.size()));
+      sides_.push_back({{lo, hi}, line == curve_of.end() ? n_curves : line->second, regions});
+    });
+  }
+
   int other_end(int side, int node) const {
-    return sides_[side][0] == node ? sides_[side][1] : sides_[side][0];
+    return sides_[side].nodes[0] == node ? sides_[side].nodes[1] : sides_[side].nodes[0];
   }
 
   /// Returns the turn at a node in radians; 0 at ends.
   double turn_at(int node) const {
     const auto& at = sides_at_[node];
     if (at.size() != 2) return 0;
-    const Vec2 x = place(node);
-    return std::abs(turn_between(x - place(other_end(at[0], node)), place(other_end(at[1], node)) - x));
+    const Vec2 x = flat(mesh_.points[node]);
+    return std::abs(turn_between(x - flat(mesh_.points[other_end(at[0], node)]),
+                                 flat(mesh_.points[other_end(at[1], node)]) - x));
   }
 
   void mark_ends() {
     is_end_.assign(mesh_.points.size(), 0);
     for (const NamedPoint& named : mesh_.named_points) is_end_[named.point] = 1;
     for (int v = 0; v < std::ssize(sides_at_); ++v) {
+      const auto& at = sides_at_[v];
+      if (at.size() != 2) {
+        is_end_[v] = !at.empty();
+        continue;
+      }
+      const Side &a = sides_[at[0]], &b = sides_[at[1]];
+      if (a.curve != b.curve ||
+          std::minmax(a.regions[0], a.regions[1]) != std::minmax(b.regions[0], b.regions[1]))
+        is_end_[v] = 1;
       const double turn = turn_at(v);
-      if (sides_at_[v].size() == 2 && name_[sides_at_[v][0]] != name_[sides_at_[v][1]]) is_end_[v] = 1;
       const auto is_straight = [&](int side) {
         const int node = other_end(side, v);
         return sides_at_[node].size() == 2 && turn_at(node) < kStraight;
       };
       if (turn > kCornerTurn * std::numbers::pi / 180 ||
-          (turn > kStraight && std::ranges::any_of(sides_at_[v], is_straight)))
+          (turn > kStraight && (is_straight(at[0]) || is_straight(at[1]))))
         is_end_[v] = 1;
     }
   }
 
-  void add(const EdgeChain& chain) {
-    for (const int side : chain.edges) curve_of_[side] = static_cast<int>(made_.curves.size());
-    const auto& v = chain.points;
-    std::vector<Vec2> points;
-    for (const int node : v) points.push_back(place(node));
-    ModelCurve& made = made_.curves.emplace_back();
-    made.where = fmt::format("the curve from {}", show_point(points[0]));
-    made.name = std::to_string(name_[chain.edges[0]]);
-    if (std::all_of(v.begin() + 1, v.end() - 1, [&](int node) { return turn_at(node) < kStraight; }))
-      made.shape = make_segment(points.front(), points.back());
-    else
-      made.shape = std::make_shared<SmoothChain>(std::move(points), !is_end_[v[0]]);
-  }
-
-  /// Adds the loops around each part of a region, and the holes that no region fills.
-  void add_loops() {
-    Mesh& fine = surface_.model.fine;
-    for (int& face : fine.triangle_region) face = surface_.given_region[face];
-    fine.regions = mesh_.regions;
-    const std::vector<HalfEdge> halves = sorted_half_edges(fine);
-    std::vector<char> is_inside;  // lines with one region on both sides
-    std::set<int> free;           // sides without
-    for (const auto& [a, b] : fine.lines) {
-      const auto beside = sides_of_edge(halves, a, b);
-      is_inside.push_back(beside.size() == 2 &&
-                          region_of(fine, beside[0].element) == region_of(fine, beside[1].element));
-      if (beside.size() == 1) free.insert(side_of_.at(std::minmax({at(a), at(b)})));
+  /// Adds the curve that begins at a node with this side.
+  void follow(int side, int from) {
+    const int curve = static_cast<int>(made_.curves.size());
+    std::vector<int> chain{from};
+    for (;;) {
+      curve_of_[side] = curve;
+      chain.push_back(other_end(side, chain.back()));
+      const int node = chain.back();
+      if (is_end_[node] || node == from) break;
+      side = sides_at_[node][sides_at_[node][0] == side ? 1 : 0];
     }
-    for (const Chart& chart : extract_charts(fine, std::vector<char>(fine.triangles.size(), 1), is_inside))
-      for (const auto& vertices : chart.loops) {
-        ModelLoop loop;
-        double area = 0;
-        bool has_void = false;
-        for (std::size_t i = 0; i < vertices.size(); ++i) {
-          const int a = at(chart.fine_node[vertices[i]]),
-                    b = at(chart.fine_node[vertices[(i + 1) % vertices.size()]]);
-          const int side = side_of_.at(std::minmax({a, b})), curve = curve_of_[side];
-          area += cross(place(a), place(b)) / 2;
-          has_void = has_void || free.contains(side);
-          if (loop.curves.empty() || loop.curves.back() != curve) loop.curves.push_back(curve);
-        }
-        if (loop.curves.size() > 1 && loop.curves.back() == loop.curves.front()) loop.curves.pop_back();
-        loop.where =
-            fmt::format("the outline through {}", show_point(place(at(chart.fine_node[vertices[0]]))));
-        if (area > 0) loop.region = std::to_string(chart.face);
-        if (area > 0 || has_void) made_.loops.push_back(std::move(loop));
-      }
+    std::vector<Vec2> points;
+    for (const int v : chain) points.push_back(flat(mesh_.points[v]));
+    const bool is_straight =
+        std::all_of(chain.begin() + 1, chain.end() - 1, [&](int v) { return turn_at(v) < kStraight; });
+    ModelCurve& made = made_.curves.emplace_back();
+    made.shape = is_straight ? make_segment(points.front(), points.back())
+                             : std::make_shared<SmoothChain>(std::move(points), !is_end_[from]);
+    made.where = fmt::format("the curve from {}", show_point(flat(mesh_.points[from])));
+    made.name = std::to_string(sides_[side].curve);
   }
 
-  GivenSurface surface_;
-  Mesh mesh_;
-  std::vector<std::array<int, 2>> sides_;
-  std::vector<int> name_;  ///< curve of each side in the mesh; one more: it has no line
-  std::map<std::pair<int, int>, int> side_of_;
+  /// Adds the loops around each part of a region, which lies on their left.
+  void add_loops() {
+    std::set<std::pair<int, int>> left;  // side, and 0 if it runs from lo to hi
+    for (int s = 0; s < std::ssize(sides_); ++s)
+      for (const int k : {0, 1})
+        if (sides_[s].regions[0] != sides_[s].regions[1] && sides_[s].regions[k] >= 0) left.insert({s, k});
+    while (!left.empty()) {
+      auto [side, way] = *left.begin();
+      const int region = sides_[side].regions[way];
+      ModelLoop loop;
+      double area = 0;
+      bool has_void = false;
+      while (left.erase({side, way}) > 0) {
+        const auto& [lo, hi] = sides_[side].nodes;
+        const Vec2 a = flat(mesh_.points[way == 0 ? lo : hi]), b = flat(mesh_.points[way == 0 ? hi : lo]);
+        area += cross(a, b) / 2;
+        has_void = has_void || sides_[side].regions[1 - way] < 0;
+        if (loop.curves.empty() || loop.curves.back() != curve_of_[side])
+          loop.curves.push_back(curve_of_[side]);
+        std::tie(side, way) = next_of(side, way, region);
+      }
+      if (loop.curves.size() > 1 && loop.curves.back() == loop.curves.front()) loop.curves.pop_back();
+      loop.where =
+          fmt::format("the outline through {}", show_point(flat(mesh_.points[sides_[side].nodes[0]])));
+      if (area > 0) loop.region = std::to_string(region);
+      if (area > 0 || has_void) made_.loops.push_back(std::move(loop));
+    }
+  }
+
+  /// Returns the next side around a part of a region: the first one to the left.
+  std::pair<int, int> next_of(int side, int way, int region) const {
+    const int node = sides_[side].nodes[1 - way];
+    const Vec2 in = flat(mesh_.points[node]) - flat(mesh_.points[sides_[side].nodes[way]]);
+    std::pair<int, int> next{side, 1 - way};
+    double best = -4;
+    for (const int s : sides_at_[node])
+      for (const int k : {0, 1}) {
+        if (sides_[s].nodes[k] != node || sides_[s].regions[k] != region ||
+            sides_[s].regions[1 - k] == region)
+          continue;
+        const double turn =
+            turn_between(in, flat(mesh_.points[sides_[s].nodes[1 - k]]) - flat(mesh_.points[node]));
+        if (turn > best) best = turn, next = {s, k};
+      }
+    return next;
+  }
+
+  const Mesh& mesh_;
+  std::vector<Side> sides_;
   std::vector<std::vector<int>> sides_at_;
   std::vector<char> is_end_;
-  std::map<int, int> curve_of_;  ///< curve of each side
+  std::vector<int> curve_of_;  ///< curve of each side
   PlanarModel made_;
 };
 
 }  // namespace
 
 PlanarModel trace_mesh(const Mesh& mesh) {
-  constexpr const char* kSource = "the mesh of the solution";
-  require_planar(mesh, kSource);
-  PlanarModel made = MeshTracer({mesh, kSource}).trace();
-  made.source = kSource;
-  for (std::size_t i = 0; i < mesh.named_points.size(); ++i)
-    made.points.push_back({flat(mesh.points[mesh.named_points[i].point]), std::to_string(i), ""});
+  require_planar(mesh, "the mesh of the solution");
+  PlanarModel made = MeshTracer(mesh).trace();
+  made.source = "the mesh of the solution";
   return made;
 }
 
