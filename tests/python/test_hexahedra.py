@@ -65,7 +65,8 @@ def test_closed_models_are_filled():
     ball = delquad.volume(model, quads=300, threads=1)
     skin = delquad.mesh(model, quads=300, threads=1)
     assert np.array_equal(ball.quads, skin.quads) and len(ball.volumes) == 1
-    assert len(ball.scaled_jacobian) == len(ball.hexahedra) + len(ball.pyramids) + len(ball.tetrahedra)
+    cells = [ball.hexahedra, ball.prisms, ball.pyramids, ball.tetrahedra]
+    assert len(ball.scaled_jacobian) == sum(map(len, cells))
     assert ball.scaled_jacobian.min() > 0 and np.array_equal(delquad.volume(skin).points, ball.points)
     assert len(delquad.volume(skin, strategy="FB").hexahedra) < len(ball.hexahedra)
     tets = delquad.volume(skin, cells="tets")
