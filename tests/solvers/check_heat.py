@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conduction of heat in a ball, where pyramids join hexahedra and tetrahedra: check_heat.py DELQUAD
+"""Conduction of heat in a ball, of hexahedra, prisms, pyramids and tetrahedra: check_heat.py DELQUAD
 
 Errors in L2 of linear elements must fall with order 2; linear fields are exact. The solver is our own, and shares nothing with the program
 but the files. Exit code 77: numpy, scipy or meshio are missing.
@@ -28,6 +28,10 @@ def at_places(kind, x):
         slopes = np.tile(np.vstack([[-1, -1, -1], np.eye(3)]), (len(x), 1, 1))
         return values, slopes
     s, t, z = (x[:, k, None] for k in range(3))
+    if kind == "wedge":
+        linear, flat = np.hstack([1 - s - t, s, t]), np.tile([[-1.0, 1, 0], [-1, 0, 1]], (len(x), 1, 1))
+        values, along_s, along_t = (np.hstack([p * (1 - z), p * z]) for p in (linear, flat[:, 0], flat[:, 1]))
+        return values, np.stack([along_s, along_t, np.hstack([-linear, linear])], axis=2)
     a, b = SIGNS[:, 0], SIGNS[:, 1]
     if kind == "hexahedron":
         parts = [(1 + a * s) * (1 + b * t) / 4, a * (1 + b * t) / 4, b * (1 + a * s) / 4]
@@ -49,6 +53,9 @@ def quadrature(kind, n=4):
         return np.column_stack([u, v, w]), of_all
     if kind == "pyramid":
         return np.column_stack([u * (1 - w), v * (1 - w), w]), of_all * (1 - w) ** 2
+    if kind == "wedge":
+        p = (u + 1) / 2
+        return np.column_stack([p, (v + 1) / 2 * (1 - p), w]), of_all / 4 * (1 - p)
     p, q = (u + 1) / 2 * (1 - w), (v + 1) / 2
     return np.column_stack([p, q * (1 - w - p), w]), of_all / 4 * (1 - w) * (1 - w - p)
 
@@ -56,7 +63,7 @@ def quadrature(kind, n=4):
 def on_cells(mesh):
     """For each kind of cells: nodes, values, gradients in space, weights and places, at all places of quadrature."""
     for block in mesh.cells:
-        if block.type not in ("hexahedron", "pyramid", "tetra"):
+        if block.type not in ("hexahedron", "wedge", "pyramid", "tetra"):
             assert block.type in ("vertex", "line", "quad", "triangle"), block.type
             continue
         x, weights = quadrature(block.type)
