@@ -195,8 +195,10 @@ void check_mesh_format(const std::filesystem::path& path, const MshOptions& opti
   if (has_quads && !options.triangles && std::ranges::count(format->of_triangles, kind) > 0)
     refuse("{}: '{}' has triangles only: add --triangles, which splits each quad in two [triangles-only]",
            path.string(), kind);
-  if (options.binary && !format->has_binary)
-    throw InputError(path.string() + ": '" + kind + "' has no binary form here: expected .msh with --binary");
+  for (const auto& [is_set, option] :
+       {std::pair(options.binary, "--binary"), std::pair(options.is_msh22, "--msh-version")})
+    if (is_set && !format->has_binary)
+      refuse("{}: {} is for .msh, and this is '{}'", path.string(), option, kind);
 }
 
 std::vector<std::string> missing_in_file(const std::filesystem::path& path, const Mesh& mesh,

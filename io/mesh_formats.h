@@ -75,8 +75,10 @@ void write_by(const std::filesystem::path& path, const Mesh& mesh, const MshOpti
 }
 
 /// Returns the values that MshOptions::element may have for cells. Types with 20 and 10 nodes have nodes in
-/// the middle of straight edges; other shapes get types of the same order.
+/// the middle of edges; other shapes get types of the same order.
 const std::vector<std::string>& inp_cells();
+/// Returns whether elements of a type have nodes in the middle of edges.
+bool has_middle_nodes(const std::string& element);
 /// The value for shells, even in a plane.
 inline constexpr const char* kShell = "S4";
 /// Returns the options for a mesh from this source: its shells stay shells in .inp.

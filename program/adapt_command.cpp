@@ -22,6 +22,7 @@
 #include "io/mesh_io.h"
 #include "io/nodal_values.h"
 #include "program/commands.h"
+#include "program/mesh_options.h"
 #include "program/options.h"
 #include "program/print.h"
 
@@ -261,7 +262,7 @@ void add_adapt(CLI::App& app, Commands& commands) {
           "their extremes nearby")
       ->transform(CLI::CheckedTransformer(ways).description("interpolated, conservative or bounded"));
   adapt->add_option("--quality", arguments.quality, "fast, good, best or regular")->capture_default_str();
-  adapt->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
+  add_msh_file(*adapt, arguments.msh);
   add_threads(*adapt, arguments.threads);
 }
 

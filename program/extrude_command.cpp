@@ -16,6 +16,7 @@
 #include "io/mesh_io.h"
 #include "io/text_scanner.h"
 #include "program/commands.h"
+#include "program/mesh_options.h"
 #include "program/options.h"
 #include "program/print.h"
 
@@ -230,7 +231,7 @@ void add_extrude(CLI::App& app, Commands& commands) {
       ->check(kLength);
   extrude->add_option("--height", arguments.heights,
                       "NAME=LENGTH: where a region ends, with --along or --normals; repeatable");
-  extrude->add_flag("--binary", arguments.file.binary, "write .msh as bytes");
+  add_msh_file(*extrude, arguments.file);
   extrude->add_option("--element", arguments.file.element,
                       "of .inp: C3D8, C3D8I, C3D8R, C3D20, C3D20R, DC3D8 or DC3D20");
   extrude->add_option("--json", arguments.json, "record to write");

@@ -252,8 +252,16 @@ void check_triangles(const std::filesystem::path& source, const std::filesystem:
            source.string());
 }
 
-void add_msh(CLI::App& command, MshOptions& msh) {
+void add_msh_file(CLI::App& command, MshOptions& msh) {
   command.add_flag("--binary", msh.binary, "write .msh as bytes");
+  static const std::map<std::string, bool> versions = {{"2.2", true}, {"4.1", false}};
+  command.add_option("--msh-version", msh.is_msh22, "of .msh: 4.1 or 2.2")
+      ->default_str("4.1")
+      ->transform(CLI::CheckedTransformer(versions).description("4.1 or 2.2"));
+}
+
+void add_msh(CLI::App& command, MshOptions& msh) {
+  add_msh_file(command, msh);
   command.add_flag("--triangles", msh.triangles,
                    "split each quad along its better diagonal; STL and ADCIRC have no quads");
   static const std::map<std::string, MshCurves> curves = {

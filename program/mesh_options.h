@@ -51,6 +51,8 @@ void check_triangles(const std::filesystem::path& source, const std::filesystem:
                      const MshOptions& msh);
 /// Adds `--binary`, `--triangles` and `--curves`.
 void add_msh(CLI::App& command, MshOptions& msh);
+/// Adds --binary and --msh-version alone.
+void add_msh_file(CLI::App& command, MshOptions& msh);
 /// Adds the model and all options for its quads. Returns the option of the model.
 CLI::Option* add_model(CLI::App* mesh, MeshArguments& arguments);
 /// Add the commands `mesh` and `improve` with their options, and return them.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/context.h"
 #include "base/located.h"
@@ -13,8 +12,6 @@
 #include "delquad/hexahedra.h"
 #include "experiments/console/progress.h"
 #include "geometry/mesh/cell_shapes.h"
-#include "geometry/mesh/entity_names.h"
-#include "geometry/mesh/half_edges.h"
 #include "io/cases/case_file.h"
 #include "io/entity_names.h"
 #include "io/mesh_formats.h"
@@ -34,57 +31,33 @@ struct VolumeArguments : MeshArguments {
   std::vector<std::string> layers_on;
 };
 
-// As the keys of layers in model files.
-constexpr int kMostLayers = 10'000;
-constexpr double kMostFan = 120;  // degrees
-
 std::optional<LayerSpec> read_layers(const VolumeArguments& arguments) {
   if (arguments.layers.empty()) {
     if (!arguments.layers_on.empty()) throw InputError("--layers-on goes with --layers only");
     return {};
   }
   const auto numbers = read_list("--layers", arguments.layers, 3, "0.1,1.2,5: first height, growth, number");
-  const double first = numbers[0], growth = numbers[1], number = numbers[2];
-  if (!(first > 0)) refuse("--layers: a first height of {}: expected a length above 0", first);
-  if (!(growth >= 1)) refuse("--layers: a growth of {}: expected at least 1", growth);
-  if (!(number >= 1 && number <= kMostLayers) || number != std::floor(number))
-    refuse("--layers: {} layers: expected a whole number from 1 to {}", number, kMostLayers);
+  if (const double number = numbers[2]; !(std::abs(number) < 1e9) || number != std::floor(number))
+    refuse("--layers: {} layers: expected a whole number", number);
   return LayerSpec{.on = arguments.layers_on,
-                   .first = first,
-                   .growth = growth,
-                   .number = static_cast<int>(number),
+                   .first = numbers[0],
+                   .growth = numbers[1],
+                   .number = static_cast<int>(numbers[2]),
                    .where = "--layers"};
 }
 
-/// Returns the same layers for the other faces, along the curves of the faces with layers.
-LayerSpec beside(const LayerSpec& layers, const Mesh& skin) {
-  std::vector<char> has_layers(skin.regions.size(), 0);
-  for (const std::string& name : layers.on)
-    for (const int r : find_entities(skin.regions, "region", name, layers.where)) has_layers[r] = 1;
-  const std::vector<HalfEdge> sides = sorted_half_edges(skin);
-  std::set<std::string> on, into;
-  for (std::size_t l = 0; l < skin.lines.size(); ++l) {
-    std::set<int> with, without;
-    for (const HalfEdge& side : sides_of_edge(sides, skin.lines[l][0], skin.lines[l][1])) {
-      const int region = region_of(skin, side.element);
-      (has_layers[region] != 0 ? with : without).insert(region);
-    }
-    if (with.empty() || without.empty()) continue;
-    on.insert(tag_label(1, skin.curves[skin.line_curve[l]].tag));
-    for (const int region : without) into.insert(tag_label(2, skin.regions[region].tag));
-  }
-  LayerSpec other = layers;
-  other.on.assign(on.begin(), on.end());
-  other.into.assign(into.begin(), into.end());
-  other.fan = kMostFan;
-  return other;
+bool has_curved_cells(const VolumeArguments& arguments) {
+  return arguments.volume.cells == VolumeCells::kTets && has_middle_nodes(arguments.msh.element);
 }
 
 /// Returns the quads of the model, and tells warnings.
 Mesh mesh_skin(const VolumeArguments& arguments, const std::optional<LayerSpec>& layers, Progress& progress) {
   Case c = read_model_case(arguments.model);
   set_problem(arguments, c);
-  if (c.order > 1) refuse("--order {}: volumes have cells of order 1: expected 1", c.order);
+  if (has_curved_cells(arguments))
+    c.order = 2;
+  else if (c.order > 1)
+    refuse("--order {}: volumes have cells of order 1: expected 1, or --cells tets --element C3D10", c.order);
   const auto make = [&](const Case& of) {
     return mesh(of, arguments.pipeline.value_or(arguments.quality),
                 {.progress = [&](const ProgressReport& report) { progress.step(report.stage); }});
@@ -92,7 +65,7 @@ Mesh mesh_skin(const VolumeArguments& arguments, const std::optional<LayerSpec>&
   MeshResult result = make(c);
   if (layers && !layers->on.empty() && c.layers.empty()) {
     Case layered = c;
-    layered.layers = {beside(*layers, result.mesh)};
+    layered.layers = {layers_beside(*layers, result.mesh)};
     try {
       if (!layered.layers[0].on.empty()) result = make(layered);
     } catch (const InputError& error) {
@@ -141,6 +114,8 @@ int volume_command(const VolumeArguments& arguments) {
   options.layers = read_layers(arguments);
   const Mesh skin = arguments.from.empty() ? mesh_skin(arguments, options.layers, progress)
                                            : read_mesh(arguments.from, &notes);
+  if (skin.order == 2 && !has_curved_cells(arguments))
+    refuse("{}: the skin has order 2: expected --cells tets --element C3D10, or quads of order 1", name);
   const Mesh cells = located(name, [&] { return fill_skin(skin, options, &notes); });
   for (const std::string& lost : renamed_in_file(arguments.output, cells))
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + lost);
@@ -182,10 +157,9 @@ void add_volume(CLI::App& app, Commands& commands) {
       ->add_option("--layers-on", arguments.layers_on,
                    "name of faces with layers; may be repeated; default: all")
       ->allow_extra_args(false);
-  volume->add_flag("--binary", arguments.msh.binary, "write .msh as bytes");
-  volume->add_option(
-      "--element", arguments.msh.element,
-      "of .inp: C3D4, C3D10 with nodes in the middle of edges, DC3D4, DC3D10, or of hexahedra");
+  add_msh_file(*volume, arguments.msh);
+  volume->add_option("--element", arguments.msh.element,
+                     "of .inp: C3D4, C3D10 with middle nodes on the model, DC3D4, DC3D10, or of hexahedra");
   volume->add_option("--json", arguments.json, "record to write");
   add_max_elements(*volume, arguments.max_elements, "refuse to make more cells than this");
   add_threads(*volume, arguments.threads);

@@ -256,6 +256,8 @@ std::vector<double> layer_heights(const LayerSpec& spec) {
   if ((spec.number == 0) == (spec.thickness == 0))
     throw InputError(fmt::format("{}: {} of 'number' and 'thickness': expected one", spec.where,
                                  spec.number == 0 ? "none" : "both"));
+  if (spec.number < 0 || spec.number > kMostLayers)
+    throw InputError(fmt::format("{}: {} layers: expected at most {}", spec.where, spec.number, kMostLayers));
   if (spec.number == 0 && spec.thickness < spec.first)
     throw InputError(
         fmt::format("{}: thickness {} is less than the first height, {}: expected a larger thickness",

@@ -16,9 +16,11 @@
 #include "features/volume/find_bodies.h"
 #include "features/volume/layers.h"
 #include "features/volume/place_hexahedra.h"
+#include "features/volume/place_middle_nodes.h"
 #include "features/volume/place_prisms.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
+#include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/entity_names.h"
 #include "metrics/cells.h"
 
@@ -41,7 +43,6 @@ Quad by_better_diagonal(const Mesh& mesh, Quad q) {
 }
 
 void check_skin(const Mesh& skin, long long max_elements) {
-  require_readable(skin, "skin");
   require_straight(skin, "skin");
   if (!skin.triangles.empty())
     refuse("the skin has {} triangles, one at {}: a volume needs quads alone [odd-boundary]",
@@ -102,7 +103,14 @@ class SkinFiller {
     if (!options_.layers) return;
     if (tets_alone())
       refuse("layers have hexahedra: expected '--cells hex-dominant' or '--cells pyramids-and-tets'");
-    heights_ = layer_heights(*options_.layers);
+    const LayerSpec& layers = *options_.layers;
+    if (!(layers.first > 0))
+      refuse("{}: a first height of {}: expected a length above 0", layers.where, layers.first);
+    if (!(layers.growth >= 1)) refuse("{}: a growth of {}: expected at least 1", layers.where, layers.growth);
+    heights_ = layer_heights(layers);
+    if (const double room = diagonal(result_); heights_.back() > room)
+      refuse("{}: layers have a height of {:.3g}, and the model a diagonal of {:.3g}: expected lower layers",
+             layers.where, heights_.back(), room);
     has_layers_.assign(result_.regions.size(), options_.layers->on.empty() ? 1 : 0);
     for (const std::string& name : options_.layers->on)
       for (const int r : find_entities(result_.regions, "region", name, options_.layers->where))
@@ -255,6 +263,16 @@ VolumeCells volume_cells(const std::string& name) {
 
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {
   check_strategy(options.strategy);
+  require_readable(skin, "skin");
+  if (skin.order == 2 && options.cells == VolumeCells::kTets) {
+    Mesh corners = skin;
+    corners.order = 1;
+    corners.line_nodes.clear(), corners.quad_nodes.clear();
+    const std::vector<int> number = drop_unused_points(corners);
+    Mesh cells = fill_skin(corners, options, notes);
+    place_middle_nodes(cells, skin, number, notes);
+    return cells;
+  }
   check_skin(skin, options.max_elements);
   const Mesh mesh = SkinFiller(skin, options, notes).fill(notes);
   if (const std::vector<std::string> defects = defects_of_cells(mesh); !defects.empty())

@@ -43,4 +43,11 @@ bool same_turn(const std::array<int, 4>& a, const std::array<int, 4>& b) {
   return true;
 }
 
+Vec3 middle_of_edge(const Mesh& mesh, int a, int b) {
+  const std::array<int, 2> edge = {std::min(a, b), std::max(a, b)};
+  const auto at = std::ranges::lower_bound(mesh.middle_nodes, edge, {}, &MiddleNode::edge);
+  if (at != mesh.middle_nodes.end() && at->edge == edge) return at->at;
+  return 0.5 * (mesh.points[a] + mesh.points[b]);
+}
+
 }  // namespace delquad

@@ -106,6 +106,9 @@ struct SolidSide {
 std::array<int, 4> side_key(std::span<const int> nodes);
 /// Returns the sides of all cells, by their nodes.
 std::vector<SolidSide> sorted_sides(const Mesh& mesh);
+/// Returns the place of the middle node of an edge: the one in Mesh::middle_nodes, or the middle of a
+/// straight edge.
+Vec3 middle_of_edge(const Mesh& mesh, int a, int b);
 /// Returns whether two sides of the same nodes have them in the same cyclic order.
 bool same_turn(const std::array<int, 4>& a, const std::array<int, 4>& b);
 

@@ -105,11 +105,20 @@ VolumeCells volume_cells(const std::string& name);
 /// Throws InputError unless a text is as VolumeOptions::strategy.
 void check_strategy(const std::string& strategy);
 
+/// Returns layers on faces of a skin, along the curves where the layers of its volume end. With these in a
+/// problem, mesh() makes rows of quads for fill_skin() to end layers on. No `on` in the result: none is
+/// needed. Throws InputError for unknown names.
+LayerSpec layers_beside(const LayerSpec& layers, const Mesh& skin);
+
 /// Fills closed quads of order 1 with cells. Quads may enclose cavities and several bodies, also with quads
 /// between them. Points keep their numbers and places. Quads look outwards afterwards; with tetrahedra alone
 /// each becomes two triangles. Each body is a volume, with the names that all its faces share; a cavity is
 /// told to `notes`. The same input gives the same bytes. Throws InputError, with the place, for triangles,
 /// quads that are open or cross each other, and bodies that cannot be filled.
+///
+/// For tetrahedra alone the quads may have order 2. Then points are renumbered, and Mesh::middle_nodes gets
+/// the middle nodes of the skin. Where tetrahedra would fold, these move towards straight edges, and `notes`
+/// tell where.
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options = {}, ReadNotes* notes = nullptr);
 
 }  // namespace delquad

@@ -92,6 +92,12 @@ struct PeriodicFaces {
 /// The highest polynomial degree of elements.
 inline constexpr int kMostOrder = 4;
 
+/// The node in the middle of an edge of cells, where it is not the middle of a straight edge.
+struct MiddleNode {
+  std::array<int, 2> edge;  ///< indices into Mesh::points, ascending
+  Vec3 at;
+};
+
 /// A mesh in space: line elements on curves, triangles and quads in regions. Planar meshes have z = 0, and
 /// indices count from 0. A mesh of hexahedra (extrude()) has no triangles. Its quads are the boundary,
 /// counterclockwise seen from outside, and named faces inside.
@@ -128,6 +134,8 @@ struct Mesh {
   /// Corners of a triangle, counterclockwise seen from the apex, then the apex.
   std::vector<std::array<int, 4>> tetrahedra = {};
   std::vector<int> tet_volume = {};
+  /// For cells that are written with nodes in the middle of edges (C3D10); by edge, each once.
+  std::vector<MiddleNode> middle_nodes = {};
   std::vector<Entity> volumes = {};
   /// Thickness of a shell, by triangle, then by quad; empty: none is known.
   std::vector<double> thickness = {};
@@ -165,11 +173,13 @@ enum class MshCurves {
 struct MshOptions {
   bool binary = false;
   MshCurves curves = MshCurves::kAll;
-  /// Kind of hexahedra in .inp: C3D8, C3D8I or C3D8R; with nodes in the middle of straight edges C3D20 or
-  /// C3D20R; for heat DC3D8 or DC3D20. Empty: C3D8. S4 makes shells of quads in a plane.
+  /// Kind of hexahedra in .inp: C3D8, C3D8I or C3D8R; with nodes in the middle of edges C3D20 or C3D20R; for
+  /// heat DC3D8 or DC3D20. Empty: C3D8. S4 makes shells of quads in a plane.
   std::string element = {};
   /// Whether quads of order 1 are written as two triangles each. STL and ADCIRC have no quads.
   bool triangles = false;
+  /// Whether .msh has format 2.2, as .msh2 always has; otherwise 4.1.
+  bool is_msh22 = false;
 };
 
 /// Writes a mesh by extension: .msh, .vtu (with eta per quad), .obj, .inp, .mesh or .svg (a picture).

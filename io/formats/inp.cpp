@@ -31,6 +31,10 @@ const std::vector<std::string>& inp_cells() {
   return all;
 }
 
+bool has_middle_nodes(const std::string& element) {
+  return element.find("20") != std::string::npos || element.ends_with("10");
+}
+
 std::string inp_number(double x, double negligible) {
   if (std::abs(x) < negligible) return "0";
   constexpr std::ptrdiff_t kLongestInpNumber = 20;
@@ -137,7 +141,7 @@ std::vector<std::pair<int, int>> edges_of(const CellBlock& cells, const std::vec
 std::array<std::string, 3> types_of_cells(std::string element) {
   if (element.empty()) element = inp_cells()[0];
   const std::string prefix = element[0] == 'D' ? "DC3D" : "C3D";
-  const bool is_quadratic = element.find("20") != std::string::npos || element.ends_with("10");
+  const bool is_quadratic = has_middle_nodes(element);
   if (element.ends_with("4") || element.ends_with("10")) element = prefix + (is_quadratic ? "20" : "8");
   return {element, prefix + (is_quadratic ? "15" : "6"), prefix + (is_quadratic ? "10" : "4")};
 }
@@ -209,7 +213,7 @@ class InpWriter {
     for (std::size_t i = 0; i < mesh_.points.size(); ++i)
       if (!left_out[i]) write(i, mesh_.points[i]);
     for (std::size_t i = 0; i < edges_.size(); ++i)
-      write(mesh_.points.size() + i, 0.5 * (mesh_.points[edges_[i].first] + mesh_.points[edges_[i].second]));
+      write(mesh_.points.size() + i, middle_of_edge(mesh_, edges_[i].first, edges_[i].second));
   }
 
   void write_elements() {
@@ -229,7 +233,7 @@ class InpWriter {
     }
   }
 
-  /// With the middles of straight edges, if there are any.
+  /// With the middles of edges, if they have nodes.
   std::vector<int> nodes_of(const CellBlock& cells, std::size_t i) const {
     std::vector<int> nodes = cells.nodes(i);
     if (edges_.empty()) return nodes;

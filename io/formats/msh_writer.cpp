@@ -427,7 +427,7 @@ void write_msh(const std::filesystem::path& path, const Mesh& mesh, const MshOpt
   std::vector<MeshField> fields;
   if (!mesh.thickness.empty()) fields.push_back({"thickness", false, 1, mesh.thickness});
   write_file_atomically(path, [&](std::ostream& stream) {
-    write_msh(stream, mesh, options, fields, path.extension() == ".msh2");
+    write_msh(stream, mesh, options, fields, options.is_msh22 || path.extension() == ".msh2");
   });
 }
 

@@ -122,12 +122,29 @@ Mesh extruded(const Mesh& mesh, int layers, double growth, const std::map<std::s
   return result;
 }
 
+LayerSpec volume_layers(const std::tuple<double, double, int>& layers, std::vector<std::string> on) {
+  const auto [first, growth, number] = layers;
+  return {.on = std::move(on), .first = first, .growth = growth, .number = number, .where = "layers"};
+}
+
+/// Returns layers_beside() as the keys of a model file; none: no layers are needed there.
+py::object rows_beside(const Mesh& skin, const std::tuple<double, double, int>& layers,
+                       const std::vector<std::string>& on) {
+  const LayerSpec beside = layers_beside(volume_layers(layers, on), skin);
+  if (beside.on.empty()) return py::none();
+  return py::dict(arg("on") = beside.on, arg("into") = beside.into, arg("first") = beside.first,
+                  arg("growth") = beside.growth, arg("number") = beside.number, arg("fan") = beside.fan);
+}
+
 Mesh filled(const Mesh& skin, const std::string& cells, const std::string& strategy, long long max_elements,
-            int threads, double time_limit) {
+            int threads, double time_limit, const std::optional<std::tuple<double, double, int>>& layers,
+            const std::vector<std::string>& layers_on) {
+  VolumeOptions options{volume_cells(cells), max_elements, strategy};
+  if (layers) options.layers = volume_layers(*layers, layers_on);
   Mesh result;
   CallingThread().run([&](const std::stop_token& stop) {
     const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
-    result = fill_skin(skin, {volume_cells(cells), max_elements, strategy});
+    result = fill_skin(skin, options);
   });
   return result;
 }
@@ -179,6 +196,7 @@ void define_mesh(py::module_& m) {
   m.def("read_mesh", &read, arg("path"));
   m.def("extrude", &extruded);
   m.def("fill_skin", &filled);
+  m.def("rows_beside", &rows_beside);
   m.def("_extensions", &extensions, arg("written"));
 }
 

@@ -93,6 +93,24 @@ TEST(CellFiles, OfOtherProgramsGetTheFacesThatTheyLack) {
                             "triangles and quads that are no sides of cells are left out: 1"}));
 }
 
+TEST(CellFiles, HaveTheVersionThatIsAsked) {
+  const Folder folder;
+  write_mesh(folder / "a.msh", mixed_solid(), {.is_msh22 = true});
+  write_mesh(folder / "a.msh2", mixed_solid());
+  EXPECT_EQ(read_text(folder / "a.msh"), read_text(folder / "a.msh2"));
+  expect_input_error([&] { write_mesh(folder / "a.vtu", mixed_solid(), {.is_msh22 = true}); },
+                     {"a.vtu: --msh-version is for .msh"});
+}
+
+TEST(CellFiles, OfAbaqusHaveMiddleNodesOfTheMesh) {
+  const Folder folder;
+  Mesh mesh = mixed_solid(false);
+  const auto [a, b, c, d] = mesh.tetrahedra[0];
+  mesh.middle_nodes = {{{std::min(a, b), std::max(a, b)}, {0.123, 0.456, 0.789}}};
+  write_mesh(folder / "a.inp", mesh, {.element = "C3D10"});
+  EXPECT_TRUE(holds(read_text(folder / "a.inp"), ", 0.123, 0.456, 0.789\n"));
+}
+
 TEST(CellFiles, OfAbaqusHaveNoPyramids) {
   const Folder folder;
   for (const char* name : {"a.inp", "a.unv"})

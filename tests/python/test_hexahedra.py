@@ -60,7 +60,7 @@ def test_what_cannot_be_swept():
         delquad.extrude(3, along=(0, 0, 1), layers=2)
 
 
-def test_closed_models_are_filled():
+def test_closed_models_are_filled(tmp_path):
     model = delquad.example("sphere")
     ball = delquad.volume(model, quads=300, threads=1)
     skin = delquad.mesh(model, quads=300, threads=1)
@@ -72,8 +72,23 @@ def test_closed_models_are_filled():
     tets = delquad.volume(skin, cells="tets")
     assert len(tets.hexahedra) == 0 and len(tets.triangles) == 2 * len(skin.quads) and tets.volume == pytest.approx(ball.volume, rel=0.01)
 
+    layered = delquad.volume(skin, layers=(0.01, 1.2, 3))
+    assert len(layered.hexahedra) >= 3 * len(skin.quads)
+    curved = delquad.volume(model, quads=300, order=2, cells="tets")
+    curved.write(tmp_path / "a.inp", element="C3D10")
+    assert "TYPE=C3D10" in (tmp_path / "a.inp").read_text()
+
+
+def test_layers_end_on_rows_of_other_faces():
+    elbow = delquad.volume(delquad.example("elbow"), 4, layers=(0.1, 1.3, 4), layers_on=["region_5", "region_6", "region_7"])
+    assert len(elbow.quads) > len(delquad.mesh(delquad.example("elbow"), 4).quads) and elbow.scaled_jacobian.min() > 0
+
 
 def test_what_cannot_be_filled():
+    with pytest.raises(delquad.InputError, match="goes with layers only"):
+        delquad.volume(square(), layers_on=["wall"])
+    with pytest.raises(delquad.InputError, match="layers: a growth of 0.5"):
+        delquad.volume(delquad.mesh(delquad.example("sphere"), quads=100), layers=(0.1, 0.5, 3))
     with pytest.raises(delquad.InputError, match="open at the edge"):
         delquad.volume(square())
     with pytest.raises(delquad.InputError, match="expected no size"):

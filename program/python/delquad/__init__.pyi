@@ -194,6 +194,8 @@ def volume(
     *,
     cells: Literal["hex-dominant", "pyramids-and-tets", "tets"] = "hex-dominant",
     strategy: str = "DBCO",
+    layers: tuple[float, float, int] | None = None,
+    layers_on: Sequence[str] = (),
     max_elements: int = 50_000_000,
     threads: int = 0,
     time_limit: float = 0.0,

@@ -35,22 +35,33 @@ def extrude(
     return _core.extrude(mesh, layers, growth, heights or {}, threads, time_limit, along, point, axis, angle, curve, normals, both_sides)
 
 
-def volume(model, size=None, *, cells="hex-dominant", strategy="DBCO", max_elements=50_000_000, threads=0, time_limit=0.0, **settings):
+def volume(model, size=None, *, cells="hex-dominant", strategy="DBCO", layers=None, layers_on=(), max_elements=50_000_000, threads=0, time_limit=0.0, **settings):
     """Fills a closed model and returns a Mesh with hexahedra, pyramids and tetrahedra.
 
     model: as for mesh(), which makes the skin with size and settings; or a Mesh of closed quads, which stay as they are.
     cells: "hex-dominant" and "pyramids-and-tets" keep the quads, "tets" splits each into two triangles.
     strategy: stages of "hex-dominant", by letter. F or D place points, of equilateral tetrahedra or of cubes. B recombines
         them, C cleans up, O optimizes the other cells. C and O may be absent.
+    layers: (first height, growth, number) of hexahedra on the faces named in layers_on, or on all. They end on rows of quads
+        that the skin of a model gets, elsewhere by prisms.
     max_elements: of the skin, and of cells. threads: 0 for the number of cores.
     time_limit: in seconds, of the skin and of the cells; 0 for none.
 
     Bodies become volumes, and regions of the skin faces. Raises InputError, with the place, if quads are open or cross
     each other, or a body cannot be filled.
     """
+    if layers_on and layers is None:
+        raise _core.InputError("layers_on goes with layers only")
     if isinstance(model, _core.Mesh):
         if size is not None or settings:
             raise _core.InputError(f"volume() of a Mesh keeps its quads: expected no {'size' if size is not None else next(iter(settings))}")
     else:
-        model = _mesh(model, size, max_elements=max_elements, threads=threads, time_limit=time_limit, **settings)
-    return _core.fill_skin(model, cells, strategy, max_elements, threads, time_limit)
+        settings |= dict(max_elements=max_elements, threads=threads, time_limit=time_limit)
+        skin = _mesh(model, size, **settings)
+        if rows := _core.rows_beside(skin, layers, layers_on) if layers_on else None:
+            try:
+                skin = _mesh(model, size, layers=[rows], **settings)
+            except _core.InputError:  # layers end by prisms
+                pass
+        model = skin
+    return _core.fill_skin(model, cells, strategy, max_elements, threads, time_limit, layers, layers_on)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/half_edges.h"
 #include "tests/features/volume/volume_checks.h"
 
@@ -87,6 +88,52 @@ TEST(FillSkin, TakesAllStrategies) {
     expect_sound_cells(fill_skin(ball, {.strategy = strategy}), volume_of(ball));
   for (const char* wrong : {"", "B", "D", "FD", "DO", "DFB", "DBCCO", "DBX", "DBOC"})
     expect_input_error([&] { fill_skin(ball, {.strategy = wrong}); }, {"strategy '", "F or D"});
+}
+
+/// The quads at order 2; `place` moves the middles of sides and quads.
+template <class Place>
+Mesh curved(Mesh mesh, const Place& place) {
+  mesh.order = 2;
+  std::map<std::vector<int>, int> known;
+  const auto add_node = [&](std::vector<int> corners) {
+    std::ranges::sort(corners);
+    const auto [at, is_new] = known.try_emplace(corners, static_cast<int>(mesh.points.size()));
+    mesh.quad_nodes.push_back(at->second);
+    if (!is_new) return;
+    Vec3 sum;
+    for (const int v : corners) sum = sum + 1.0 / static_cast<double>(corners.size()) * mesh.points[v];
+    mesh.points.push_back(place(sum));
+  };
+  for (const auto& q : mesh.quads) {
+    for (int k = 0; k < 4; ++k) add_node({q[k], q[(k + 1) % 4]});
+    add_node({q.begin(), q.end()});
+  }
+  return mesh;
+}
+Mesh curved_ball() {
+  return curved(sphere(5, 1), [](const Vec3& p) { return 1 / norm(p) * p; });
+}
+
+TEST(FillSkin, TakesMiddleNodesOfCurvedQuads) {
+  ReadNotes notes;
+  const Mesh cells = fill_skin(curved_ball(), kTets, &notes);
+  EXPECT_EQ(notes, ReadNotes());
+  expect_sound_cells(cells, measure(cells).volume);
+  EXPECT_EQ(2 * cells.middle_nodes.size(), 3 * cells.triangles.size());
+  for (const auto& [a, b, c] : cells.triangles)
+    for (const auto& [i, j] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+      EXPECT_NEAR(norm(middle_of_edge(cells, i, j)), 1, 1e-12);
+  expect_input_error([] { fill_skin(curved_ball()); }, {"skin", "order 2"});
+}
+
+TEST(FillSkin, MovesMiddleNodesWhereCellsWouldFold) {
+  const Mesh cube = cube_surface(1, [](const Vec3& p) { return p; });
+  const auto dent = [](const Vec3& p) { return p == Vec3{0, 0, 1} ? Vec3{0, 0, -2} : p; };
+  ReadNotes notes;
+  const Mesh cells = fill_skin(curved(cube, dent), kTets, &notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("1 middle node on the model, the first at (0, 0, "), std::string::npos) << notes[0];
+  for (const MiddleNode& middle : cells.middle_nodes) EXPECT_GT(middle.at.z, -1.5);
 }
 
 TEST(FillSkin, RefusesOtherSkins) {
