@@ -113,8 +113,14 @@ SurfaceModel make_compounds(const MeshProblem& problem, const std::vector<Featur
     model = make_compound(std::move(model), groups, options);
   }
   const KeptNames keep = names_that_stay(problem, model.fine.curves, model.fine.regions);
-  if (spec.fill_holes > 0)
+  if (spec.fill_holes > 0) {
+    const std::size_t before = model.fine.lines.size();
     model = close_small_holes(std::move(model), {std::numbers::pi * spec.fill_holes, keep, kept});
+    if (model.fine.lines.size() == before)
+      model.warnings.emplace_back(fmt::format("{}: no hole up to a diameter of {} is filled",
+                                              spec.where.empty() ? problem.where : spec.where,
+                                              spec.fill_holes));
+  }
   if (const double length = length_of_small(problem, model.fine.points); length > 0)
     model = ignore_small(std::move(model), {length, keep, kept}, options);
   return model;

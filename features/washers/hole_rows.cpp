@@ -94,6 +94,10 @@ int edges_for(const WasherSpec& washer, double length, double size) {
   return n;
 }
 
+bool is_in_range(const WasherSpec& washer, double diameter) {
+  return diameter >= (1 - kInRange) * washer.least && diameter <= (1 + kInRange) * washer.most;
+}
+
 }  // namespace
 
 double Hole::length() const { return std::accumulate(parts.begin(), parts.end(), 0.0); }
@@ -147,10 +151,23 @@ std::array<double, 2> HoleClearance::around(const Hole& hole, int number, double
 }
 
 const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole) {
-  const auto at = std::ranges::find_if(washers, [&](const WasherSpec& w) {
-    return hole.diameter >= (1 - kInRange) * w.least && hole.diameter <= (1 + kInRange) * w.most;
-  });
+  const auto at =
+      std::ranges::find_if(washers, [&](const WasherSpec& w) { return is_in_range(w, hole.diameter); });
   return at == washers.end() ? nullptr : &*at;
+}
+
+void warn_of_idle(const std::vector<WasherSpec>& washers, const std::vector<double>& diameters,
+                  std::vector<Warning>& warnings) {
+  for (const WasherSpec& washer : washers) {
+    if (std::ranges::any_of(diameters, [&](double d) { return is_in_range(washer, d); })) continue;
+    std::string known = "there are no round or slotted holes";
+    if (!diameters.empty()) {
+      const auto [least, most] = std::ranges::minmax(diameters);
+      known = fmt::format("holes have {:.4g} to {:.4g}", least, most);
+    }
+    warnings.emplace_back(fmt::format("{}: no hole has a diameter from {} to {}: {}", washer.where,
+                                      washer.least, washer.most, known));
+  }
 }
 
 double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, const SizeField& field,

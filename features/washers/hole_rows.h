@@ -56,6 +56,9 @@ struct HoleRows {
 };
 /// Returns the first washer whose range of diameters has the hole; null: none.
 const WasherSpec* washer_of(const std::vector<WasherSpec>& washers, const Hole& hole);
+/// Warns of washers without a hole, given the diameters of all holes.
+void warn_of_idle(const std::vector<WasherSpec>& washers, const std::vector<double>& diameters,
+                  std::vector<Warning>& warnings);
 /// Returns the size at the rim of a hole: the size of the field, or less if curvature asks for more edges.
 /// Edges that are given stay. A warning tells which of them gives way.
 double rim_size(const Hole& hole, const WasherSpec& washer, const SizeSpec& spec, const SizeField& field,

@@ -80,6 +80,7 @@ MeshProblem with_planar_washers(MeshProblem problem, const SizeField& size, std:
   std::vector<Hole> holes(chain.loops.size());
   std::vector<const WasherSpec*> of_hole(holes.size(), nullptr);
   std::vector<int> hole_of(model.curves.size(), -1);
+  std::vector<double> diameters;
   for (std::size_t l = 0; l < holes.size(); ++l) {
     holes[l] = {in_space(sampled[l].points), sampled[l].lengths};
     const auto diameter = hole_diameter(holes[l].outline);
@@ -89,11 +90,12 @@ MeshProblem with_planar_washers(MeshProblem problem, const SizeField& size, std:
           return &other != &sampled[l] && encloses(other.points, sampled[l].points[0]);
         });
     if (!diameter || !is_hole) continue;
-    holes[l].diameter = *diameter;
+    diameters.push_back(holes[l].diameter = *diameter);
     of_hole[l] = washer_of(washers, holes[l]);
     if (of_hole[l] == nullptr) continue;
     for (const int c : sampled[l].curves) hole_of[c] = static_cast<int>(l);
   }
+  warn_of_idle(washers, diameters, warnings);
   std::vector<HoleClearance::Wall> walls;
   for (std::size_t c = 0; c < model.curves.size(); ++c) {
     if (model.curves[c].is_gone) continue;

@@ -179,6 +179,7 @@ void SurfaceWashers::plan(const SizeField& size) {
     for (const auto& curves : chart.curve_of) around.insert(curves.begin(), curves.end());
     for (const int c : around) ++n_faces[c];
   }
+  std::vector<double> diameters;
   for (const OutlinedChart& chart : charts) {
     check_cancelled();
     const auto into = inward_normals(chart);
@@ -187,6 +188,7 @@ void SurfaceWashers::plan(const SizeField& size) {
     for (std::size_t l = 0; l < chart.loops.size(); ++l) {
       const std::vector<int>& loop = chart.loops[l];
       FaceHole hole = hole_of(chart, l, into, ends);
+      if (hole.diameter > 0) diameters.push_back(hole.diameter);
       const bool gets_rows = hole.diameter > 0 && washer_of(problem_.washers, hole) != nullptr;
       for (std::size_t i = 0; i < loop.size(); ++i)
         walls.push_back({{chart.points[loop[i]], chart.points[loop[(i + 1) % loop.size()]]},
@@ -217,6 +219,7 @@ void SurfaceWashers::plan(const SizeField& size) {
       layer.into = {fmt::format("region_{}", mesh.regions[hole.face].tag)};
     }
   }
+  warn_of_idle(problem_.washers, diameters, model_.warnings);
   for (const FacingSides& f : facing)
     if (are_rims(f.sides[0]) && are_rims(f.sides[1]))
       mapped_.rings.emplace_back(fmt::format("region_{}", mesh.regions[f.face].tag), -1);

@@ -52,6 +52,18 @@ TEST(Washers, HaveEdgesByTheSizeWhereNoneAreGiven) {
   EXPECT_EQ(rows_around(r.mesh, {20, 20, 0}, 4, 4 + std::numbers::pi, 1, 8), 1);
 }
 
+TEST(Washers, AreToldWhereNoHoleMatches) {
+  const std::vector<WasherSpec> washers = {{10, 12}, {7.9, 8.1}};
+  EXPECT_EQ(count_told(mesh(problem_of(plate({{20, 20, 4}, {45, 20, 1}}), 4, washers), "D").warnings,
+                       "no hole has a diameter from 10 to 12: holes have 2 to 8"),
+            1);
+  EXPECT_EQ(count_told(mesh(problem_of(plate({}), 4, {{1, 2}}), "D").warnings, "no round or slotted holes"),
+            1);
+  EXPECT_EQ(count_told(mesh(problem_of(ExampleModel{"sheet"}, 4, {{900, 950}}), "D").warnings,
+                       "no hole has a diameter from 900 to 950"),
+            1);
+}
+
 TEST(Washers, GetLessWhereThereIsNoRoom) {
   // 3 to the rim: a row of 1.5 and one that is free.
   MeshResult r = mesh(problem_of(plate({{20, 33, 4}}), 3, {{6, 10, 2, 16, 4}}), "DB");
@@ -251,6 +263,8 @@ TEST(FillHoles, ClosesThoseThatAreNotWider) {
   const MeshResult r = mesh(problem, "DB");
   EXPECT_EQ(count_told(r.warnings, "closed a hole of"), 1);
   EXPECT_EQ(r.surface->mesh.euler_characteristic, 1 - 5);
+  problem.surface.fill_holes = 1e-3;
+  EXPECT_EQ(count_told(mesh(problem, "D").warnings, "no hole up to a diameter of 0.001 is filled"), 1);
 }
 
 }  // namespace
