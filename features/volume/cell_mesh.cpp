@@ -5,7 +5,7 @@
 #include <numbers>
 #include <span>
 
-#include "features/volume/frame_field.h"
+#include "features/volume/body_parts.h"
 #include "metrics/cells.h"
 
 namespace delquad {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,7 @@ Cell cell_of(const Corners& corners) {
   return cell;
 }
 inline int n_corners(const Cell& cell) { return cell[4] < 0 ? 4 : cell[5] < 0 ? 5 : cell[6] < 0 ? 6 : 8; }
+inline std::span<const int> nodes_of(const Cell& cell) { return std::span(cell).first(n_corners(cell)); }
 inline bool is_pyramid(const Cell& cell) { return cell[4] >= 0 && cell[5] < 0; }
 /// Returns whether this is a hexahedron or prism.
 inline bool is_block(const Cell& cell) { return cell[5] >= 0; }

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "delquad/hexahedra.h"
 #include "delquad/model.h"
+#include "features/volume/body_parts.h"
 #include "features/volume/fill_around.h"
 #include "features/volume/fill_void.h"
 #include "features/volume/find_bodies.h"
@@ -27,8 +28,6 @@
 namespace delquad {
 
 namespace {
-
-using Quad = std::array<int, 4>;
 
 /// Turns the quad so that its first corner has the diagonal whose triangles have the larger least sine.
 Quad by_better_diagonal(const Mesh& mesh, Quad q) {
@@ -138,23 +137,13 @@ class SkinFiller {
 
   /// Adds the cells of a body, or fills `lost` with the sides that fail.
   void fill_body(int body, std::vector<int>& lost) {
-    Mesh part;
-    std::vector<int> of_skin;  // point of the result for each point of the part; -1: not yet there
-    std::map<int, int> place;
-    for (const auto& [q, is_reversed] : bodies_[body]) {
-      Quad quad = split_[q];
-      for (int& v : quad) {
-        const auto [at, is_new] = place.try_emplace(v, static_cast<int>(of_skin.size()));
-        if (is_new) of_skin.push_back(v), part.points.push_back(result_.points[v]);
-        v = at->second;
-      }
-      if (is_reversed) std::swap(quad[1], quad[3]);
-      const auto [a, b, c, d] = quad;
-      if (tets_alone())
-        part.triangles.insert(part.triangles.end(), {{a, b, c}, {a, c, d}});
-      else
-        part.quads.push_back(quad);
-    }
+    std::vector<Quad> quads;
+    std::vector<int> of_skin;
+    for (const BodySide& side : bodies_[body]) quads.push_back(split_[side.quad]);
+    Mesh part = part_with(result_.points, quads, of_skin);
+    for (std::size_t i = 0; i < quads.size(); ++i)
+      if (bodies_[body][i].is_reversed) std::swap(part.quads[i][1], part.quads[i][3]);
+    if (tets_alone()) part.triangles = halves_of(std::exchange(part.quads, {}));
     const bool optimizes = options_.cells != VolumeCells::kHexDominant || options_.strategy.ends_with('O');
     const auto place_cells = [&](Mesh& rest) {
       if (options_.cells != VolumeCells::kHexDominant) return;
@@ -168,24 +157,7 @@ class SkinFiller {
     for (int& face : lost) face /= tets_alone() ? 2 : 1;
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
     if (!lost.empty()) return;
-    of_skin.resize(part.points.size(), -1);
-    const auto add = [&](const auto& from, auto& to, std::vector<int>& volume_of) {
-      for (auto cell : from) {
-        for (int& v : cell) {
-          if (of_skin[v] < 0) {
-            of_skin[v] = static_cast<int>(result_.points.size());
-            result_.points.push_back(part.points[v]);
-          }
-          v = of_skin[v];
-        }
-        to.push_back(cell);
-        volume_of.push_back(body);
-      }
-    };
-    add(part.hexahedra, result_.hexahedra, result_.hex_volume);
-    add(part.prisms, result_.prisms, result_.prism_volume);
-    add(part.pyramids, result_.pyramids, result_.pyramid_volume);
-    add(part.tetrahedra, result_.tetrahedra, result_.tet_volume);
+    add_cells(result_, part, of_skin, body);
     if (static_cast<long long>(n_solids(result_)) > options_.max_elements)
       refuse("{} cells are needed, and --max-elements allows {}: a larger size needs fewer",
              n_solids(result_), options_.max_elements);
@@ -194,7 +166,7 @@ class SkinFiller {
   [[noreturn]] void refuse_body(const Body& body, const std::vector<int>& lost) const {
     refuse(
         "the body cannot be filled at {}: {} of its {} quads allow no cells; expected {}smaller sizes there",
-        show_point(middle_of(result_, body[lost[0]].quad)), lost.size(), body.size(),
+        show_point(middle_of(result_.points, result_.quads[body[lost[0]].quad])), lost.size(), body.size(),
         tets_alone() ? "" : "'--cells tets', which splits quads, or ");
   }
 
@@ -234,11 +206,9 @@ class SkinFiller {
       for (Quad* q : {&split_[i], &result_.quads[i]})
         if (turns[i] < 0) std::swap((*q)[1], (*q)[3]);
     if (!tets_alone()) return;
-    for (std::size_t i = 0; i < split_.size(); ++i) {
-      const auto [a, b, c, d] = split_[i];
-      result_.triangles.insert(result_.triangles.end(), {{a, b, c}, {a, c, d}});
-      result_.triangle_region.insert(result_.triangle_region.end(), 2, result_.quad_region[i]);
-    }
+    result_.triangles = halves_of(split_);
+    for (const int region : result_.quad_region)
+      result_.triangle_region.insert(result_.triangle_region.end(), 2, region);
     result_.quads.clear(), result_.quad_region.clear();
     result_.periodic_faces.clear();
   }

@@ -12,13 +12,11 @@
 #include "features/volume/tetrahedralise.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/find_crossings.h"
+#include "geometry/mesh/half_edges.h"
 
 namespace delquad {
 
 namespace {
-
-using Quad = std::array<int, 4>;
-using Triangle = std::array<int, 3>;
 
 /// Pyramids below this quality are not made of two tetrahedra.
 constexpr double kGoodPyramid = 0.35;
@@ -185,10 +183,9 @@ int face_at(int triangle, std::size_t n_quads) {
   return triangle < 2 * n ? triangle / 2 : triangle - n;
 }
 
-/// Returns both triangles of each quad, by its diagonal from the first corner, then the given triangles.
+/// Returns both triangles of each quad, then the given triangles.
 std::vector<Triangle> split(const std::vector<Quad>& quads, const std::vector<Triangle>& triangles) {
-  std::vector<Triangle> all;
-  for (const auto& [a, b, c, d] : quads) all.insert(all.end(), {{a, b, c}, {a, c, d}});
+  std::vector<Triangle> all = halves_of(quads);
   all.insert(all.end(), triangles.begin(), triangles.end());
   return all;
 }
@@ -200,12 +197,7 @@ Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads, bool is_impr
   if (!result.lost.empty()) return result;
   const std::vector<Triangle> triangles = split(quads, boundary.triangles);
   std::vector<Vec3> holes;
-  for (const Cell& block : boundary.blocks) {
-    Vec3 sum;
-    for (int k = 0; k < n_corners(block); ++k)
-      sum = sum + (1.0 / n_corners(block)) * boundary.points[block[k]];
-    holes.push_back(sum);
-  }
+  for (const Cell& block : boundary.blocks) holes.push_back(middle_of(boundary.points, nodes_of(block)));
   const auto made = tetrahedralise(boundary.points, triangles, holes);
   if (!made) {
     result.lost.resize(quads.size() + boundary.triangles.size());
@@ -249,6 +241,21 @@ Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads, bool is_impr
 }
 
 }  // namespace
+
+VoidBoundary boundary_of(const Mesh& body, const std::vector<OpenFace>& faces) {
+  VoidBoundary boundary{body.points, {}, {}, {}, std::vector<char>(body.points.size(), 0)};
+  for (const auto& [v, owner] : faces)
+    if (v[3] >= 0)
+      boundary.quads.push_back(v);
+    else
+      boundary.triangles.push_back({v[0], v[1], v[2]});
+  for (std::size_t i = 0; i < n_solids(body); ++i)
+    boundary.blocks.push_back(cell_of(solid_at(body, i).nodes));
+  for_each_element(body, [&](int, const auto& face) {
+    for (const int v : face) boundary.fixed[v] = 1;
+  });
+  return boundary;
+}
 
 std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& quads,
                           const std::vector<Triangle>& triangles, Vec3* where) {

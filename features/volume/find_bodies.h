@@ -9,9 +9,6 @@
 
 namespace delquad {
 
-/// Returns the mean of the corners of a quad.
-Vec3 middle_of(const Mesh& mesh, int q);
-
 /// A side of a quad in the boundary of a body.
 struct BodySide {
   int quad;

@@ -3,60 +3,97 @@
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "base/sort_unique.h"
+#include "features/volume/body_parts.h"
 
 namespace delquad {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
-using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex>>;
+using Tetrahedron = CGAL::Triangulation_cell_base_with_info_3<int, Kernel>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Tetrahedron>>;
+using Axes = std::array<Vec3, 3>;
 
-/// Exponents of the monomials of degree four.
-constexpr std::array<std::array<int, 3>, 15> kPowers = {{{4, 0, 0},
-                                                         {0, 4, 0},
-                                                         {0, 0, 4},
-                                                         {3, 1, 0},
-                                                         {3, 0, 1},
-                                                         {1, 3, 0},
-                                                         {0, 3, 1},
-                                                         {1, 0, 3},
-                                                         {0, 1, 3},
-                                                         {2, 2, 0},
-                                                         {2, 0, 2},
-                                                         {0, 2, 2},
-                                                         {2, 1, 1},
-                                                         {1, 2, 1},
-                                                         {1, 1, 2}}};
-constexpr std::array<double, 15> kMultinomial = {1, 1, 1, 4, 4, 4, 4, 4, 4, 6, 6, 6, 12, 12, 12};
+/// Coefficients of the monomials of degree four.
+constexpr int kTerms = 15;
+using Quartic = Eigen::Array<double, kTerms, 1>;
+using Exponents = std::array<int, 3>;
+constexpr Exponents kExponents[kTerms] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {3, 1, 0}, {3, 0, 1},
+                                          {1, 3, 0}, {0, 3, 1}, {1, 0, 3}, {0, 1, 3}, {2, 2, 0},
+                                          {2, 0, 2}, {0, 2, 2}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
+constexpr int kMultinomial[kTerms] = {1, 1, 1, 4, 4, 4, 4, 4, 4, 6, 6, 6, 12, 12, 12};
 
-std::array<std::array<double, 5>, 3> powers(const Vec3& a) {
-  std::array<std::array<double, 5>, 3> p;
-  for (int k = 0; k < 3; ++k) {
-    p[k][0] = 1;
-    for (int i = 1; i < 5; ++i) p[k][i] = p[k][i - 1] * coordinate(a, k);
+/// Monomials at a place.
+class Monomials {
+ public:
+  explicit Monomials(const Vec3& a) {
+    for (int k = 0; k < 3; ++k) {
+      powers_[k][0] = 1;
+      for (int i = 1; i < 5; ++i) powers_[k][i] = powers_[k][i - 1] * coordinate(a, k);
+    }
+  }
+  /// Returns a multiple of one.
+  double times(double factor, const Exponents& e) const {
+    return factor * powers_[0][e[0]] * powers_[1][e[1]] * powers_[2][e[2]];
+  }
+
+ private:
+  std::array<std::array<double, 5>, 3> powers_;
+};
+
+Quartic quartic_of(const Axes& axes) {
+  Quartic p = Quartic::Zero();
+  for (const Vec3& a : axes) {
+    const Monomials x(a);
+    for (int m = 0; m < kTerms; ++m) p[m] += x.times(kMultinomial[m], kExponents[m]);
   }
   return p;
 }
 
-double along(const std::array<double, 6>& m, const Vec3& a) {
+/// Returns the sum of a quartic over axes.
+double value(const Quartic& p, const Axes& axes) {
+  double sum = 0;
+  for (const Vec3& a : axes) {
+    const Monomials x(a);
+    for (int m = 0; m < kTerms; ++m) sum += x.times(p[m], kExponents[m]);
+  }
+  return sum;
+}
+
+Vec3 gradient(const Quartic& p, const Vec3& at) {
+  const Monomials x(at);
+  std::array<double, 3> g = {};
+  for (int m = 0; m < kTerms; ++m)
+    for (int k = 0; k < 3; ++k)
+      if (Exponents e = kExponents[m]; e[k]-- > 0) g[k] += x.times(p[m] * (e[k] + 1), e);
+  return {g[0], g[1], g[2]};
+}
+
+/// Returns the size along a direction.
+double along(const FrameValues& values, const Vec3& a) {
+  const auto m = values.tail<6>();
   return m[0] * a.x * a.x + m[1] * a.y * a.y + m[2] * a.z * a.z +
          2 * (m[3] * a.x * a.y + m[4] * a.x * a.z + m[5] * a.y * a.z);
 }
 
-void add_square(std::array<double, 6>& m, double factor, const Vec3& a) {
+void add_square(FrameValues& values, double factor, const Vec3& a) {
+  auto m = values.tail<6>();
   m[0] += factor * a.x * a.x, m[1] += factor * a.y * a.y, m[2] += factor * a.z * a.z;
   m[3] += factor * a.x * a.y, m[4] += factor * a.x * a.z, m[5] += factor * a.y * a.z;
 }
 
 /// Returns the rotation nearest to the matrix of three rows, by Newton's iteration; the guess if it fails.
-std::array<Vec3, 3> nearest_rotation(std::array<Vec3, 3> x, const std::array<Vec3, 3>& guess) {
+Axes nearest_rotation(Axes x, const Axes& guess) {
   for (int i = 0; i < 20; ++i) {
-    std::array<Vec3, 3> c = {cross(x[1], x[2]), cross(x[2], x[0]), cross(x[0], x[1])};
+    Axes c = {cross(x[1], x[2]), cross(x[2], x[0]), cross(x[0], x[1])};
     const double det = dot(x[0], c[0]);
     if (!(det > 1e-12)) return guess;
     double change = 0;
@@ -68,6 +105,20 @@ std::array<Vec3, 3> nearest_rotation(std::array<Vec3, 3> x, const std::array<Vec
     if (change < 1e-8) break;
   }
   return x;
+}
+
+/// Maximizes the sum of p over the axes: the polar part of the gradients does not lower it, as p is convex.
+Axes project(const Quartic& p, Axes axes) {
+  for (int i = 0; i < 30; ++i) {
+    Axes gradients;
+    for (int k = 0; k < 3; ++k) gradients[k] = 0.25 * gradient(p, axes[k]) + 0.02 * axes[k];
+    const Axes next = nearest_rotation(gradients, axes);
+    const double change =
+        std::max({norm(next[0] - axes[0]), norm(next[1] - axes[1]), norm(next[2] - axes[2])});
+    axes = next;
+    if (change < 2e-3) break;
+  }
+  return axes;
 }
 
 /// Returns the side of a background tetrahedron, in sizes of the skin.
@@ -107,50 +158,6 @@ int Frame::nearest(const Vec3& v) const {
   return best;
 }
 
-FrameField::Quartic FrameField::quartic_of(const std::array<Vec3, 3>& axes) {
-  Quartic p{};
-  for (const Vec3& a : axes) {
-    const auto x = powers(a);
-    for (int m = 0; m < 15; ++m)
-      p[m] += kMultinomial[m] * x[0][kPowers[m][0]] * x[1][kPowers[m][1]] * x[2][kPowers[m][2]];
-  }
-  return p;
-}
-
-double FrameField::value(const Quartic& p, const std::array<Vec3, 3>& axes) {
-  double sum = 0;
-  for (const Vec3& a : axes) {
-    const auto x = powers(a);
-    for (int m = 0; m < 15; ++m)
-      sum += p[m] * x[0][kPowers[m][0]] * x[1][kPowers[m][1]] * x[2][kPowers[m][2]];
-  }
-  return sum;
-}
-
-/// Maximizes the sum of p over the axes: the polar part of the gradients does not lower it, as p is convex.
-std::array<Vec3, 3> FrameField::project(const Quartic& p, std::array<Vec3, 3> axes) {
-  for (int i = 0; i < 30; ++i) {
-    std::array<Vec3, 3> gradients;
-    for (int k = 0; k < 3; ++k) {
-      const auto x = powers(axes[k]);
-      Vec3 g{0, 0, 0};
-      for (int m = 0; m < 15; ++m) {
-        const auto& [a, b, c] = kPowers[m];
-        if (a > 0) g.x += p[m] * a * x[0][a - 1] * x[1][b] * x[2][c];
-        if (b > 0) g.y += p[m] * b * x[0][a] * x[1][b - 1] * x[2][c];
-        if (c > 0) g.z += p[m] * c * x[0][a] * x[1][b] * x[2][c - 1];
-      }
-      gradients[k] = 0.25 * g + 0.02 * axes[k];
-    }
-    const auto next = nearest_rotation(gradients, axes);
-    const double change =
-        std::max({norm(next[0] - axes[0]), norm(next[1] - axes[1]), norm(next[2] - axes[2])});
-    axes = next;
-    if (change < 2e-3) break;
-  }
-  return axes;
-}
-
 FrameField::FrameField(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
                        const Skin& skin)
     : n_skin_(static_cast<int>(points.size())), points_(points) {
@@ -163,23 +170,19 @@ FrameField::FrameField(const std::vector<Vec3>& points, const std::vector<std::a
 void FrameField::fix_skin(const std::vector<std::array<int, 4>>& quads) {
   frames_.resize(n_skin_);
   known_.assign(n_skin_, {});
-  quartics_.assign(n_skin_, Quartic{});
-  tensors_.assign(n_skin_, Tensor{});
-  std::vector<std::array<Vec3, 3>> first(n_skin_, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  values_.assign(n_skin_, FrameValues::Zero());
+  std::vector<Axes> first(n_skin_, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   for (const auto& q : quads) {
     const Vec3 d = direction_of(points_[q[2]] - points_[q[0]]),
                e = direction_of(points_[q[3]] - points_[q[1]]);
     if (norm(cross(d, e)) < kFlat) continue;
     const Vec3 u = direction_of(d - e), n = direction_of(cross(d, e));
-    const std::array<Vec3, 3> axes = {u, cross(n, u), n};
+    const Axes axes = {u, cross(n, u), n};
     const Quartic p = quartic_of(axes);
-    for (const int v : q) {
-      for (int m = 0; m < 15; ++m) quartics_[v][m] += p[m];
-      first[v] = axes;
-    }
+    for (const int v : q) values_[v].head<kTerms>() += p, first[v] = axes;
   }
   std::vector<std::array<double, 6>> sums(n_skin_);
-  for (int v = 0; v < n_skin_; ++v) frames_[v].axes = project(quartics_[v], first[v]);
+  for (int v = 0; v < n_skin_; ++v) frames_[v].axes = project(values_[v].head<kTerms>(), first[v]);
   for (const auto& q : quads)
     for (int k = 0; k < 4; ++k)
       for (const auto& [v, w] : {std::pair(q[k], q[(k + 1) % 4]), {q[(k + 1) % 4], q[k]}}) {
@@ -195,15 +198,16 @@ void FrameField::fix_skin(const std::vector<std::array<int, 4>>& quads) {
       mean += sums[v][k], count += sums[v][k + 3];
     }
     for (int k = 0; k < 3; ++k)
-      add_square(tensors_[v], known_[v][k] > 0 ? known_[v][k] : mean / std::max(count, 1.0),
+      add_square(values_[v], known_[v][k] > 0 ? known_[v][k] : mean / std::max(count, 1.0),
                  frames_[v].axes[k]);
-    quartics_[v] = quartic_of(frames_[v].axes);
+    values_[v].head<kTerms>() = quartic_of(frames_[v].axes);
   }
 }
 
 void FrameField::make_cells(const std::vector<Vec3>& points, const Skin& skin) {
   std::vector<double> sizes;
-  for (int v = 0; v < n_skin_; ++v) sizes.push_back((tensors_[v][0] + tensors_[v][1] + tensors_[v][2]) / 3);
+  for (int v = 0; v < n_skin_; ++v)
+    sizes.push_back((values_[v][kTerms] + values_[v][kTerms + 1] + values_[v][kTerms + 2]) / 3);
   std::ranges::nth_element(sizes, sizes.begin() + n_skin_ / 2);
   least_size_ = kLeastSize * sizes[n_skin_ / 2];
   const Box<Vec3> box = Box<Vec3>::around(points);
@@ -223,83 +227,68 @@ void FrameField::make_cells(const std::vector<Vec3>& points, const Skin& skin) {
   std::vector<std::pair<Kernel::Point_3, int>> nodes;
   for (const Vec3& p : points_)
     nodes.emplace_back(Kernel::Point_3(p.x, p.y, p.z), static_cast<int>(nodes.size()));
-  const Delaunay delaunay(nodes.begin(), nodes.end());
-  std::map<Delaunay::Cell_handle, int> index;
+  Delaunay delaunay(nodes.begin(), nodes.end());
+  for (const auto cell : delaunay.all_cell_handles()) cell->info() = -1;
   cell_of_.assign(n_skin_, -1);
   for (const auto cell : delaunay.finite_cell_handles()) {
-    index[cell] = static_cast<int>(cells_.size());
-    std::array<int, 4> corners;
+    cell->info() = static_cast<int>(cells_.size());
+    auto& corners = cells_.emplace_back();
     for (int k = 0; k < 4; ++k) {
       corners[k] = cell->vertex(k)->info();
-      if (corners[k] < n_skin_) cell_of_[corners[k]] = static_cast<int>(cells_.size());
-    }
-    cells_.push_back(corners);
-  }
-  neighbours_.resize(cells_.size());
-  std::map<std::array<int, 2>, double> edges;
-  for (const auto& [cell, i] : index) {
-    for (int k = 0; k < 4; ++k) {
-      const auto other = index.find(cell->neighbor(k));
-      neighbours_[i][k] = other == index.end() ? -1 : other->second;
+      if (corners[k] < n_skin_) cell_of_[corners[k]] = cell->info();
     }
   }
-  for (const auto& c : cells_) {
-    const Vec3 centre = 0.25 * (points_[c[0]] + points_[c[1]] + points_[c[2]] + points_[c[3]]);
-    if (!skin.contains(centre)) continue;
-    for (int k = 0; k < 4; ++k)
-      for (int l = k + 1; l < 4; ++l) {
-        const Vec3 e = points_[c[k]] - points_[c[l]];
-        edges[{std::min(c[k], c[l]), std::max(c[k], c[l])}] = 1 / std::max(dot(e, e), 1e-300);
-      }
+  for (const auto cell : delaunay.finite_cell_handles()) {
+    auto& neighbours = neighbours_.emplace_back();
+    for (int k = 0; k < 4; ++k) neighbours[k] = cell->neighbor(k)->info();
   }
   beside_.resize(points_.size());
-  for (const auto& [edge, weight] : edges)
-    for (int k = 0; k < 2; ++k) beside_[edge[k]].emplace_back(edge[1 - k], weight);
+  for (const auto& c : cells_) {
+    if (!skin.contains(middle_of(points_, c))) continue;
+    for (const int v : c)
+      for (const int w : c)
+        if (const Vec3 e = points_[w] - points_[v]; v != w)
+          beside_[v].emplace_back(w, 1 / std::max(dot(e, e), 1e-300));
+  }
+  for (auto& list : beside_) sort_unique(list);
 }
 
 void FrameField::diffuse() {
   const int n = static_cast<int>(points_.size());
-  Quartic mean{};
-  Tensor size{};
-  for (int v = 0; v < n_skin_; ++v) {
-    for (int m = 0; m < 15; ++m) mean[m] += quartics_[v][m] / n_skin_;
-    for (int m = 0; m < 6; ++m) size[m] += tensors_[v][m] / n_skin_;
-  }
-  quartics_.resize(n, mean);
-  tensors_.resize(n, size);
-  const auto average = [&](int v, const auto& values) {
-    std::remove_cvref_t<decltype(values[v])> sum{};
+  FrameValues mean = FrameValues::Zero();
+  for (int v = 0; v < n_skin_; ++v) mean += values_[v] / n_skin_;
+  values_.resize(n, mean);
+  const auto average = [&](int v) {
+    FrameValues sum = FrameValues::Zero();
     double total = 0;
-    for (const auto& [w, weight] : beside_[v]) {
-      for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += weight * values[w][m];
-      total += weight;
-    }
-    if (total == 0) return values[v];
-    for (double& s : sum) s /= total;
-    return sum;
+    for (const auto& [w, weight] : beside_[v]) sum += weight * values_[w], total += weight;
+    return total == 0 ? values_[v] : FrameValues(sum / total);
   };
   for (int sweep = 0; sweep < kLinearSweeps; ++sweep)
     for (int v = 0; v < n; ++v) {
-      if (v >= n_skin_) quartics_[v] = average(v, quartics_);
-      tensors_[v] = average(v, tensors_);
+      const FrameValues next = average(v);
+      values_[v].tail<6>() = next.tail<6>();
+      if (v >= n_skin_) values_[v] = next;
       for (int k = 0; k < 3 && v < n_skin_; ++k)
         if (known_[v][k] > 0)
-          add_square(tensors_[v], known_[v][k] - along(tensors_[v], frames_[v].axes[k]), frames_[v].axes[k]);
+          add_square(values_[v], known_[v][k] - along(values_[v], frames_[v].axes[k]), frames_[v].axes[k]);
     }
   frames_.resize(n);
   for (int sweep = 0; sweep < kProjectedSweeps; ++sweep)
     for (int v = n_skin_; v < n; ++v) {
-      const Quartic p = sweep == 0 ? quartics_[v] : average(v, quartics_);
-      std::array<Vec3, 3> best = sweep == 0 ? frames_[0].axes : frames_[v].axes;
+      const Quartic p = (sweep == 0 ? values_[v] : average(v)).head<kTerms>();
+      Axes best = frames_[sweep == 0 ? 0 : v].axes;
       if (sweep == 0)
         for (const auto& [w, weight] : beside_[v])
-          if ((w < v) && value(p, frames_[w].axes) > value(p, best)) best = frames_[w].axes;
+          if (w < v && value(p, frames_[w].axes) > value(p, best)) best = frames_[w].axes;
       frames_[v].axes = project(p, best);
-      quartics_[v] = quartic_of(frames_[v].axes);
+      values_[v].head<kTerms>() = quartic_of(frames_[v].axes);
     }
-  for (int v = 0; v < n; ++v)
-    for (int k = 0; k < 3; ++k)
-      frames_[v].sizes[k] = std::max(least_size_, along(tensors_[v], frames_[v].axes[k]));
+  for (int v = 0; v < n; ++v) set_sizes(frames_[v], values_[v]);
+}
+
+void FrameField::set_sizes(Frame& frame, const FrameValues& values) const {
+  for (int k = 0; k < 3; ++k) frame.sizes[k] = std::max(least_size_, along(values, frame.axes[k]));
 }
 
 Frame FrameField::at(const Vec3& x, const Frame& guess, int& cell) const {
@@ -320,15 +309,10 @@ Frame FrameField::at(const Vec3& x, const Frame& guess, int& cell) const {
     cell = neighbours_[cell][worst];
     if (cell < 0) return guess;
   }
-  Quartic p{};
-  Tensor size{};
-  for (int k = 0; k < 4; ++k) {
-    const double weight = std::clamp(w[k], 0.0, 1.0);
-    for (int m = 0; m < 15; ++m) p[m] += weight * quartics_[cells_[cell][k]][m];
-    for (int m = 0; m < 6; ++m) size[m] += weight * tensors_[cells_[cell][k]][m];
-  }
-  Frame frame{project(p, guess.axes), {}};
-  for (int k = 0; k < 3; ++k) frame.sizes[k] = std::max(least_size_, along(size, frame.axes[k]));
+  FrameValues values = FrameValues::Zero();
+  for (int k = 0; k < 4; ++k) values += std::clamp(w[k], 0.0, 1.0) * values_[cells_[cell][k]];
+  Frame frame{project(values.head<kTerms>(), guess.axes), {}};
+  set_sizes(frame, values);
   return frame;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <utility>
 #include <vector>
@@ -11,12 +12,6 @@
 // This header has directions and sizes of hexahedra inside a skin of quads. Points inside follow them.
 
 namespace delquad {
-
-/// Returns the vector of unit length along v; v if it has no length.
-inline Vec3 direction_of(const Vec3& v) {
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : v;
-}
 
 /// Three orthogonal directions of unit length, right-handed, and the wanted length of edges along each.
 struct Frame {
@@ -31,6 +26,9 @@ struct Frame {
   /// Returns the direction nearest to v.
   int nearest(const Vec3& v) const;
 };
+
+/// The coefficients of a frame's polynomial, then of the tensor of sizes.
+using FrameValues = Eigen::Array<double, 21, 1>;
 
 /// Frames and sizes: at the skin along normals and sides of quads, inside harmonic.
 ///
@@ -50,15 +48,10 @@ class FrameField {
   Frame at(const Vec3& x, const Frame& guess, int& cell) const;
 
  private:
-  using Quartic = std::array<double, 15>;
-  using Tensor = std::array<double, 6>;
-
   void make_cells(const std::vector<Vec3>& points, const Skin& skin);
   void fix_skin(const std::vector<std::array<int, 4>>& quads);
   void diffuse();
-  static Quartic quartic_of(const std::array<Vec3, 3>& axes);
-  static std::array<Vec3, 3> project(const Quartic& p, std::array<Vec3, 3> axes);
-  static double value(const Quartic& p, const std::array<Vec3, 3>& axes);
+  void set_sizes(Frame& frame, const FrameValues& values) const;
 
   int n_skin_;
   double least_size_ = 0;
@@ -66,8 +59,7 @@ class FrameField {
   std::vector<std::array<int, 4>> cells_, neighbours_;
   std::vector<int> cell_of_;
   std::vector<std::vector<std::pair<int, double>>> beside_;  ///< by node, neighbors with weights
-  std::vector<Quartic> quartics_;
-  std::vector<Tensor> tensors_;
+  std::vector<FrameValues> values_;
   std::vector<Frame> frames_;
   std::vector<std::array<double, 3>> known_;  ///< by vertex of the skin, sizes along its axes; 0: unknown
 };

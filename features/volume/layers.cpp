@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "base/cancel.h"
 #include "base/parallel_each.h"
 #include "base/sort_unique.h"
+#include "features/volume/body_parts.h"
 #include "features/volume/fill_around.h"
 #include "features/volume/fill_void.h"
 #include "geometry/mesh/cell_shapes.h"
@@ -21,8 +24,6 @@
 namespace delquad {
 
 namespace {
-
-using Quad = std::array<int, 4>;
 
 /// Most that heights change by length along the skin.
 constexpr double kSlope = 0.5;
@@ -41,8 +42,6 @@ constexpr int kShrinks = 6;
 constexpr int kShrinkOfCells = 3;
 /// Rows of quads serve as sides of layers if their heights differ by this factor at most.
 constexpr double kSimilar = 2;
-
-Vec3 unit_of(const Vec3& v) { return (1 / norm(v)) * v; }
 
 /// Returns the unit vector whose least dot product with unit vectors is the largest one, and this product.
 std::pair<Vec3, double> best_seen(const std::vector<Vec3>& normals) {
@@ -68,13 +67,11 @@ std::pair<Vec3, double> best_seen(const std::vector<Vec3>& normals) {
 }
 
 std::optional<NearestTriangle> nearest_of(const Mesh& body, const std::vector<char>& mark, bool marked) {
-  std::vector<std::array<int, 3>> halves;
-  for (std::size_t q = 0; q < body.quads.size(); ++q) {
-    const auto [a, b, c, d] = body.quads[q];
-    if ((mark[q] != 0) == marked) halves.insert(halves.end(), {{a, b, c}, {a, c, d}});
-  }
-  if (halves.empty()) return {};
-  return NearestTriangle(body.points, halves);
+  std::vector<Quad> quads;
+  for (std::size_t q = 0; q < body.quads.size(); ++q)
+    if ((mark[q] != 0) == marked) quads.push_back(body.quads[q]);
+  if (quads.empty()) return {};
+  return NearestTriangle(body.points, halves_of(quads));
 }
 
 class LayerGrower {
@@ -123,27 +120,11 @@ class LayerGrower {
 
   /// The body without layers, whose points are `points_of_rest`. Its last quads are folded.
   Mesh rest(std::vector<int>& points_of_rest) const {
-    Mesh rest;
-    std::vector<int> index(cells_.points.size(), -1);
-    for (auto [quad, of] : front_) {
-      for (int& v : quad) {
-        if (index[v] < 0) {
-          index[v] = static_cast<int>(rest.points.size());
-          points_of_rest.push_back(v);
-          rest.points.push_back(cells_.points[v]);
-        }
-        v = index[v];
-      }
-      rest.quads.push_back(quad);
-    }
-    return rest;
+    return part_with(cells_.points, quads_of_front(), points_of_rest);
   }
   /// Splits folded quads of a front into triangles.
-  void split_folded(std::vector<Quad>& quads, std::vector<std::array<int, 3>>& triangles) const {
-    for (std::size_t i = n_flat_; i < quads.size(); ++i) {
-      const auto [a, b, c, d] = quads[i];
-      triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-    }
+  void split_folded(std::vector<Quad>& quads, std::vector<Triangle>& triangles) const {
+    triangles = halves_of(std::span(quads).subspan(n_flat_));
     quads.resize(n_flat_);
   }
   /// The quad of the body at a face of such a front, quads first.
@@ -219,9 +200,9 @@ class LayerGrower {
         if (is_bare(s))
           at.kind = Kind::kEnd;
         else if (norm(in) > 0 && std::ranges::none_of(normals, [&](const Vec3& n) {
-                   return norm(n - unit_of(in)) < kSameNormal;
+                   return norm(n - direction_of(in)) < kSameNormal;
                  }))
-          normals.push_back(unit_of(in));
+          normals.push_back(direction_of(in));
       }
       const auto [direction, least] = best_seen(normals);
       if (least < kVisible) at.kind = Kind::kEnd;
@@ -429,18 +410,16 @@ class LayerGrower {
     std::ranges::rotate(quad, quad.begin() + std::max(fold, 0));
     std::array<int, 8> hex;
     for (int k = 0; k < 4; ++k) hex[k] = point(quad[k], level), hex[k + 4] = point(quad[k], level + 1);
-    if (n_ends == 0) {
-      cells_.hexahedra.push_back(hex), cells_.hex_volume.push_back(q);
-    } else if (fold < 0) {
-      cells_.prisms.push_back({hex[0], hex[3], hex[7], hex[1], hex[2], hex[6]});
-      cells_.prism_volume.push_back(q);
-    } else if (level > 0) {
+    if (n_ends == 0)
+      add_cell(cells_, hex, q);
+    else if (fold < 0)
+      add_cell(cells_, std::array{hex[0], hex[3], hex[7], hex[1], hex[2], hex[6]}, q);
+    else if (level > 0)
       add_half(hex, 1, 2, q), add_half(hex, 2, 3, q);
-    } else if (n_ends == 3) {
-      cells_.pyramids.push_back({hex[0], hex[1], hex[2], hex[3], hex[4]}), cells_.pyramid_volume.push_back(q);
-    } else {
+    else if (n_ends == 3)
+      add_cell(cells_, std::span(hex).first(5), q);
+    else
       add_around_middle(hex, q);
-    }
   }
 
   /// Adds the half of a folded hexahedron at corners 0, i and j.
@@ -453,35 +432,28 @@ class LayerGrower {
     const auto [a, b, c] = std::array{hex[low[0]], hex[low[1]], hex[low[2]]};
     const int d = hex[low[0] + 4], e = hex[low[1] + 4], f = hex[low[2] + 4];
     if (c != f)
-      cells_.prisms.push_back({a, b, c, d, e, f}), cells_.prism_volume.push_back(q);
+      add_cell(cells_, std::array{a, b, c, d, e, f}, q);
     else if (b != e)
-      cells_.pyramids.push_back({a, d, e, b, c}), cells_.pyramid_volume.push_back(q);
+      add_cell(cells_, std::array{a, d, e, b, c}, q);
     else
-      add_tetrahedron({a, b, c, d}, q);
+      add_cell(cells_, std::array{a, b, c, d}, q);
   }
 
-  void add_tetrahedron(const std::array<int, 4>& corners, int q) {
-    cells_.tetrahedra.push_back(corners), cells_.tet_volume.push_back(q);
-  }
-
+  /// Adds cells between the middle of a hexahedron, whose top is folded, and its sides.
   void add_around_middle(const std::array<int, 8>& hex, int q) {
     const int middle = static_cast<int>(cells_.points.size());
     std::vector<int> corners(hex.begin(), hex.end());
     sort_unique(corners);
-    Vec3 sum;
-    for (const int v : corners) sum = sum + 1.0 / static_cast<double>(corners.size()) * cells_.points[v];
-    cells_.points.push_back(sum);
-    add_tetrahedron({hex[4], hex[6], hex[5], middle}, q),
-        add_tetrahedron({hex[4], hex[7], hex[6], middle}, q);
-    for (const Quad& side : solid_shape(CellShape::kHexahedron).sides) {
-      if (std::ranges::min(side) == 4) continue;
+    cells_.points.push_back(middle_of(cells_.points, corners));
+    std::vector<Quad> sides = {{5, 6, 4, 4}, {6, 7, 4, 4}};
+    std::ranges::copy_if(cell_tables::kHexSides, std::back_inserter(sides),
+                         [](const Quad& side) { return side[0] < 4; });
+    for (const Quad& side : sides) {
       std::vector<int> seen;  // from the middle
       for (int k = 3; k >= 0; --k)
         if (hex[side[k]] != hex[side[(k + 1) % 4]]) seen.push_back(hex[side[k]]);
-      if (seen.size() == 4)
-        cells_.pyramids.push_back({seen[0], seen[1], seen[2], seen[3], middle}),
-            cells_.pyramid_volume.push_back(q);
-      if (seen.size() == 3) add_tetrahedron({seen[0], seen[1], seen[2], middle}, q);
+      seen.push_back(middle);
+      if (seen.size() > 3) add_cell(cells_, seen, q);
     }
   }
 
@@ -498,12 +470,17 @@ class LayerGrower {
     return quads;
   }
 
+  std::vector<Quad> quads_of_front() const {
+    std::vector<Quad> quads;
+    for (const auto& [quad, of] : front_) quads.push_back(quad);
+    return quads;
+  }
+
   /// The quads of the body at which fronts cross.
   std::vector<int> quads_of_crossings() const {
     std::vector<int> quads;
-    std::vector<Quad> front;
-    std::vector<std::array<int, 3>> triangles;
-    for (const auto& [quad, of] : front_) front.push_back(quad);
+    std::vector<Quad> front = quads_of_front();
+    std::vector<Triangle> triangles;
     split_folded(front, triangles);
     for (const int f : untangle(cells_.points, front, triangles)) quads.push_back(quad_of(f));
     return quads;
@@ -545,23 +522,12 @@ std::vector<int> fill_with_layers(Mesh& body, const std::vector<char>& has_layer
     if (grower.shrink(lost)) continue;
     if (!lost.empty()) return lost;
     grown = grower.told();
-    body.points = grower.cells().points;
-    for (std::size_t i = points.size(); i < rest.points.size(); ++i) {
-      points.push_back(static_cast<int>(body.points.size()));
-      body.points.push_back(rest.points[i]);
-    }
-    const auto add = [&](auto& to, auto cells, std::vector<int>& volume_of, const auto& layers) {
-      for (auto& cell : cells)
-        for (int& v : cell) v = points[v];
-      cells.insert(cells.end(), layers.begin(), layers.end());
-      volume_of.resize(cells.size(), 0);
-      to = std::move(cells);
-    };
     const Mesh& layers = grower.cells();
-    add(body.hexahedra, rest.hexahedra, body.hex_volume, layers.hexahedra);
-    add(body.prisms, rest.prisms, body.prism_volume, layers.prisms);
-    add(body.pyramids, rest.pyramids, body.pyramid_volume, layers.pyramids);
-    add(body.tetrahedra, rest.tetrahedra, body.tet_volume, layers.tetrahedra);
+    std::vector<int> own(layers.points.size());
+    std::iota(own.begin(), own.end(), 0);
+    body.points = layers.points;
+    add_cells(body, rest, points, 0);
+    add_cells(body, layers, own, 0);
     return {};
   }
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "base/located.h"
 #include "base/sort_unique.h"
@@ -24,22 +25,24 @@ struct Placement {
   Skin skin{body.points, body.quads};
   FrameField field{body.points, body.quads, skin};
   Lattice lattice = {};
-  std::vector<Hexahedron> hexahedra = {};
+  Mesh placed = {};  ///< the quads and the hexahedra between points of the lattice
 
   void add_points(Packing packing) {
     lattice = fill_with_points(body.points, body.quads, skin, field, packing);
+    placed.points = lattice.points, placed.quads = body.quads;
   }
   std::vector<Hexahedron> between(const std::vector<std::vector<int>>& beside) const {
-    return find_hexahedra(lattice.points, beside, body.quads, skin);
+    return find_hexahedra(placed.points, beside, body.quads, skin);
   }
   void choose(const std::vector<Hexahedron>& candidates) {
-    hexahedra = select_hexahedra(lattice.points, body.quads, candidates);
+    placed.hexahedra = select_hexahedra(placed.points, body.quads, candidates);
+    drop_cells(placed, {});
   }
 };
 
 /// Chooses hexahedra anew, where they leave room also between neighbors that are not the best.
 void clean_up(Placement& in) {
-  const auto is_enclosed = enclosed_points(in.lattice.points.size(), in.body.quads, in.hexahedra);
+  const auto is_enclosed = enclosed_points(in.placed);
   auto beside = in.lattice.beside;
   for (std::size_t v = 0; v < beside.size(); ++v)
     if (is_enclosed[v])
@@ -47,7 +50,7 @@ void clean_up(Placement& in) {
     else
       std::erase_if(beside[v], [&](int w) { return is_enclosed[w]; });
   std::vector<Hexahedron> candidates = in.between(beside);
-  candidates.insert(candidates.end(), in.hexahedra.begin(), in.hexahedra.end());
+  candidates.insert(candidates.end(), in.placed.hexahedra.begin(), in.placed.hexahedra.end());
   sort_unique(candidates);
   in.choose(candidates);
 }
@@ -89,22 +92,10 @@ void check_strategy(const std::string& strategy) {
 void place_hexahedra(Mesh& volume, const std::string& strategy) {
   Placement placement{volume};
   for (const char letter : strategy) std::ranges::find(kStages, letter, &VolumeStage::letter)->run(placement);
-  auto& [body, skin, field, lattice, hexahedra] = placement;
-  separate_sides(lattice.points, volume.quads, hexahedra);
-
-  std::vector<int> index(lattice.points.size(), -1);
-  for (std::size_t v = 0; v < volume.points.size(); ++v) index[v] = static_cast<int>(v);
-  for (Hexahedron hex : hexahedra) {
-    for (int& v : hex) {
-      if (index[v] < 0) {
-        index[v] = static_cast<int>(volume.points.size());
-        volume.points.push_back(lattice.points[v]);
-      }
-      v = index[v];
-    }
-    volume.hexahedra.push_back(hex);
-    volume.hex_volume.push_back(0);
-  }
+  separate_sides(placement.placed);
+  std::vector<int> numbers(volume.points.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  add_cells(volume, placement.placed, numbers, 0);
 }
 
 }  // namespace delquad

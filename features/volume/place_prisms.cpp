@@ -14,25 +14,9 @@ namespace delquad {
 
 namespace {
 
-using Quad = std::array<int, 4>;
 using Prism = std::array<int, 6>;
 
 constexpr double kLeastOfPrisms = 0.2;
-
-/// Quads between hexahedra or the skin and the void, by their nodes, counterclockwise seen from outside of
-/// the void.
-std::map<Quad, Quad> open_quads(const Mesh& volume) {
-  std::map<Quad, Quad> open;
-  const auto toggle = [&](const Quad& quad) {
-    const auto [at, is_new] = open.try_emplace(side_key(quad), quad);
-    if (!is_new) open.erase(at);
-  };
-  for (const Quad& quad : volume.quads) toggle(quad);
-  for (const auto& hex : volume.hexahedra)
-    for (const Quad& side : solid_shape(CellShape::kHexahedron).sides)
-      toggle({hex[side[3]], hex[side[2]], hex[side[1]], hex[side[0]]});
-  return open;
-}
 
 std::array<Quad, 3> quads_of(const Prism& p) {
   return {{{p[0], p[1], p[4], p[3]}, {p[1], p[2], p[5], p[4]}, {p[2], p[0], p[3], p[5]}}};
@@ -66,7 +50,8 @@ std::vector<Prism> find_prisms(const std::map<Quad, Quad>& open) {
 }  // namespace
 
 void place_prisms(Mesh& volume) {
-  std::map<Quad, Quad> open = open_quads(volume);
+  std::map<Quad, Quad> open;  // by nodes
+  for (const OpenFace& face : open_faces(volume)) open.emplace(side_key(face.nodes), face.nodes);
   std::vector<std::pair<double, Prism>> found;
   for (const Prism& prism : find_prisms(open)) {
     const auto corners = corners_of(volume.points, prism);
@@ -74,42 +59,21 @@ void place_prisms(Mesh& volume) {
       found.emplace_back(-jacobian, prism);
   }
   std::ranges::sort(found);
-  std::vector<Prism> prisms;
   for (const auto& [worst, prism] : found) {
     const auto sides = quads_of(prism);
     if (!std::ranges::all_of(sides, [&](const Quad& s) { return open.contains(side_key(s)); })) continue;
     for (const Quad& side : sides) open.erase(side_key(side));
-    prisms.push_back(prism);
+    add_cell(volume, prism, 0);
   }
-  for (std::size_t before = prisms.size() + 1; prisms.size() < before;) {
-    before = prisms.size();
-    std::map<std::array<int, 3>, std::pair<std::array<int, 3>, std::size_t>> ends;
-    for (std::size_t i = 0; i < prisms.size(); ++i) {
-      const auto [a, b, c, d, e, f] = prisms[i];
-      for (const std::array<int, 3>& end : {std::array{a, b, c}, std::array{d, f, e}}) {
-        std::array<int, 3> key = end;
-        std::ranges::sort(key);
-        const auto [at, is_new] = ends.try_emplace(key, end, i);
-        if (!is_new) ends.erase(at);
-      }
-    }
-    std::vector<Quad> quads;
-    std::vector<std::array<int, 3>> triangles;
-    std::vector<std::size_t> owner;
-    for (const auto& [key, quad] : open) quads.push_back(quad);
-    for (const auto& [key, end] : ends) triangles.push_back(end.first), owner.push_back(end.second);
-    std::vector<char> crosses(prisms.size(), 0);
-    for (const int f : untangle(volume.points, quads, triangles))
-      if (f >= static_cast<int>(quads.size())) crosses[owner[f - quads.size()]] = 1;
-    std::size_t i = 0;
-    for (const Prism& prism : prisms)
-      if (crosses[i++] != 0)
-        for (const Quad& side : quads_of(prism)) open.emplace(side_key(side), side);
-    i = 0;
-    std::erase_if(prisms, [&](const Prism&) { return crosses[i++] != 0; });
+  for (bool changed = true; changed;) {
+    const std::vector<OpenFace> faces = open_faces(volume);
+    VoidBoundary boundary = boundary_of(volume, faces);
+    std::vector<int> crossing;
+    for (const int f : untangle(volume.points, boundary.quads, boundary.triangles))
+      if (faces[f].nodes[3] < 0) crossing.push_back(-1 - faces[f].owner);
+    changed = !crossing.empty();
+    drop_cells(volume, crossing);
   }
-  volume.prisms = std::move(prisms);
-  volume.prism_volume.assign(volume.prisms.size(), 0);
 }
 
 }  // namespace delquad

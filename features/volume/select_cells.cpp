@@ -59,12 +59,7 @@ Vec3 centre_of(const Corners& x) {
   return 0.125 * sum;
 }
 
-std::array<int, 4> sorted(std::array<int, 4> q) {
-  std::ranges::sort(q);
-  return q;
-}
-
-std::array<int, 4> side_of(const Hexahedron& hex, int s) {
+Quad side_of(const Hexahedron& hex, int s) {
   return {hex[kHexSides[s][0]], hex[kHexSides[s][1]], hex[kHexSides[s][2]], hex[kHexSides[s][3]]};
 }
 
@@ -200,8 +195,7 @@ bool are_compatible(const Placed& a, const Placed& b) {
 /// The edges and quads of the skin.
 class SkinParts {
  public:
-  SkinParts(std::size_t n_points, const std::vector<std::array<int, 4>>& quads)
-      : at_(n_points), quads_(quads) {
+  SkinParts(std::size_t n_points, const std::vector<Quad>& quads) : at_(n_points), quads_(quads) {
     for (std::size_t q = 0; q < quads.size(); ++q)
       for (const int v : quads[q]) at_[v].push_back(static_cast<int>(q));
   }
@@ -224,15 +218,15 @@ class SkinParts {
       if (std::ranges::find(quads_[q], b) != quads_[q].end()) visit(quads_[q]);
   }
   /// Returns the quad with these vertices; -1: none.
-  int quad(const std::array<int, 4>& side) const {
+  int quad(const Quad& side) const {
     for (const int q : at_[side[0]])
-      if (sorted(quads_[q]) == sorted(side)) return q;
+      if (side_key(quads_[q]) == side_key(side)) return q;
     return -1;
   }
 
  private:
   std::vector<std::vector<int>> at_;
-  const std::vector<std::array<int, 4>>& quads_;
+  const std::vector<Quad>& quads_;
 };
 
 /// Least distance from the skin of the middle of sides and edges inside that end there, in mean edges.
@@ -257,7 +251,7 @@ bool fits_skin(const Hexahedron& hex, const std::vector<Vec3>& points, const Ski
         if (join == 1) {
           const Wedge wedge(corners_of(points, hex), a, b);
           bool is_clear = true;
-          parts.around(hex[a], hex[b], [&](const std::array<int, 4>& quad) {
+          parts.around(hex[a], hex[b], [&](const Quad& quad) {
             if (std::ranges::all_of(quad, [&](int v) { return std::ranges::find(hex, v) != hex.end(); }))
               return;
             for (const int v : quad)
@@ -290,36 +284,11 @@ bool fits_skin(const Hexahedron& hex, const std::vector<Vec3>& points, const Ski
   return true;
 }
 
-/// Returns the unmatched sides of hexahedra and quads of the skin, with the hexahedron of each (-1: skin).
-std::vector<std::pair<std::array<int, 4>, int>> bounds_of_rest(const std::vector<std::array<int, 4>>& quads,
-                                                               const std::vector<Hexahedron>& hexahedra) {
-  std::vector<std::pair<std::array<int, 4>, int>> sides;
-  for (const auto& q : quads) sides.emplace_back(q, -1);
-  for (std::size_t h = 0; h < hexahedra.size(); ++h)
-    for (int s = 0; s < 6; ++s) sides.emplace_back(side_of(hexahedra[h], s), static_cast<int>(h));
-  std::vector<std::pair<std::array<int, 4>, int>> keys;
-  for (std::size_t i = 0; i < sides.size(); ++i)
-    keys.emplace_back(sorted(sides[i].first), static_cast<int>(i));
-  std::ranges::sort(keys);
-  std::vector<int> open;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (i + 1 < keys.size() && keys[i].first == keys[i + 1].first) {
-      ++i;
-      continue;
-    }
-    open.push_back(keys[i].second);
-  }
-  std::ranges::sort(open);
-  std::vector<std::pair<std::array<int, 4>, int>> result;
-  for (const int i : open) result.push_back(sides[i]);
-  return result;
-}
-
 }  // namespace
 
 std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
                                        const std::vector<std::vector<int>>& beside,
-                                       const std::vector<std::array<int, 4>>& quads, const Skin& skin) {
+                                       const std::vector<Quad>& quads, const Skin& skin) {
   const SkinParts parts(points.size(), quads);
   std::vector<std::vector<Hexahedron>> found(points.size());
   parallel_ranges(points.size(), [&](std::size_t begin, std::size_t end) {
@@ -375,18 +344,16 @@ std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
   return all;
 }
 
-std::vector<char> enclosed_points(std::size_t n_points, const std::vector<std::array<int, 4>>& quads,
-                                  const std::vector<Hexahedron>& hexahedra) {
-  std::vector<char> is_enclosed(n_points, 0);
-  for (const Hexahedron& hex : hexahedra)
+std::vector<char> enclosed_points(const Mesh& body) {
+  std::vector<char> is_enclosed(body.points.size(), 0);
+  for (const Hexahedron& hex : body.hexahedra)
     for (const int v : hex) is_enclosed[v] = 1;
-  for (const auto& [side, hex] : bounds_of_rest(quads, hexahedra))
-    for (const int v : side) is_enclosed[v] = 0;
+  for (const OpenFace& face : open_faces(body))
+    for (const int v : face.nodes) is_enclosed[v] = 0;
   return is_enclosed;
 }
 
-std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points,
-                                         const std::vector<std::array<int, 4>>& quads,
+std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const std::vector<Quad>& quads,
                                          const std::vector<Hexahedron>& candidates) {
   const int n = static_cast<int>(candidates.size());
   std::vector<Placed> all;
@@ -410,14 +377,14 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points,
   for (auto& list : rivals) sort_unique(list);
 
   // Sides by vertices; a chosen side makes the candidates on its other side better.
-  std::map<std::array<int, 4>, std::vector<int>> by_side;
+  std::map<Quad, std::vector<int>> by_side;
   for (int i = 0; i < n; ++i)
-    for (int s = 0; s < 6; ++s) by_side[sorted(side_of(candidates[i], s))].push_back(i);
+    for (int s = 0; s < 6; ++s) by_side[side_key(side_of(candidates[i], s))].push_back(i);
   std::vector<double> worth(n), weight(n);
   for (int i = 0; i < n; ++i) weight[i] = 1 + 0.5 * scaled_jacobian(corners_of(points, candidates[i]));
   for (int i = 0; i < n; ++i) worth[i] = weight[i];
   for (const auto& q : quads)
-    if (const auto found = by_side.find(sorted(q)); found != by_side.end())
+    if (const auto found = by_side.find(side_key(q)); found != by_side.end())
       for (const int i : found->second) worth[i] += 1;
   enum State : char { kOpen, kChosen, kLost };
   std::vector<State> state(n, kOpen);
@@ -432,7 +399,7 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points,
     state[i] = kChosen;
     for (const int j : rivals[i]) state[j] = kLost;
     for (int s = 0; s < 6; ++s)
-      for (const int j : by_side[sorted(side_of(candidates[i], s))])
+      for (const int j : by_side[side_key(side_of(candidates[i], s))])
         if (state[j] == kOpen) worth[j] += 1, queue.push({worth[j], -j});
   }
 
@@ -470,32 +437,27 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points,
   return chosen;
 }
 
-void separate_sides(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
-                    std::vector<Hexahedron>& hexahedra) {
-  for (;;) {
-    const auto sides = bounds_of_rest(quads, hexahedra);
-    std::vector<std::array<int, 3>> triangles;
+void separate_sides(Mesh& body) {
+  for (std::vector<int> worse(1); !worse.empty();) {
+    const std::vector<OpenFace> faces = open_faces(body);
+    std::vector<Triangle> triangles;
     double length = 0;
-    for (const auto& [q, hex] : sides) {
+    for (const auto& [q, owner] : faces) {
       for (int k = 0; k < 4; ++k) triangles.push_back({q[k], q[(k + 1) % 4], q[(k + 2) % 4]});
-      length += norm(points[q[1]] - points[q[0]]) / static_cast<double>(sides.size());
+      length += norm(body.points[q[1]] - body.points[q[0]]) / static_cast<double>(faces.size());
     }
     const auto may_cross = [&](int a, int b) {
-      return a / 4 == b / 4 || (sides[a / 4].second < 0 && sides[b / 4].second < 0);
+      return a / 4 == b / 4 || (faces[a / 4].owner >= 0 && faces[b / 4].owner >= 0);
     };
-    std::vector<int> worse;
-    for (const Crossing& c : find_crossings(points, triangles, may_cross, 1e-3 * length)) {
-      const int a = sides[c.first / 4].second, b = sides[c.second / 4].second;
-      worse.push_back(a < 0 ? b
-                      : b < 0 || scaled_jacobian(corners_of(points, hexahedra[a])) <
-                                     scaled_jacobian(corners_of(points, hexahedra[b]))
-                          ? a
-                          : b);
+    const auto quality = [&](int owner) {  // quads of the skin stay
+      return owner >= 0 ? 2 : scaled_jacobian(corners_of(body.points, body.hexahedra[-1 - owner]));
+    };
+    worse.clear();
+    for (const Crossing& c : find_crossings(body.points, triangles, may_cross, 1e-3 * length)) {
+      const int a = faces[c.first / 4].owner, b = faces[c.second / 4].owner;
+      worse.push_back(-1 - (quality(a) < quality(b) ? a : b));
     }
-    if (worse.empty()) return;
-    sort_unique(worse);
-    for (const int h : worse) hexahedra[h][0] = -1;
-    std::erase_if(hexahedra, [](const Hexahedron& h) { return h[0] < 0; });
+    drop_cells(body, worse);
   }
 }
 

@@ -4,20 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "features/volume/body_parts.h"
+
 namespace delquad {
 namespace {
 
 /// Direction of rays, along no plane that models have.
 constexpr Vec3 kRay = {1, 0.0271828182846, 0.0314159265359};
-
-std::vector<std::array<int, 3>> halves_of(const std::vector<std::array<int, 4>>& quads) {
-  std::vector<std::array<int, 3>> triangles;
-  for (const auto& [a, b, c, d] : quads) {
-    triangles.push_back({a, b, c});
-    triangles.push_back({a, c, d});
-  }
-  return triangles;
-}
 
 bool is_hit(const Vec3& x, const std::array<Vec3, 3>& triangle) {
   const Vec3 a = triangle[0] - x, b = triangle[1] - x, c = triangle[2] - x;
