@@ -21,20 +21,27 @@ Vec3 middle_of(const std::vector<Vec3>& points, std::span<const int> numbers) {
   return sum;
 }
 
-std::vector<OpenFace> open_faces(const Mesh& body) {
-  std::vector<OpenFace> all;
-  for (const Quad& q : body.quads) all.push_back({q, static_cast<int>(all.size())});
-  for (const auto& [a, b, c] : body.triangles) all.push_back({{a, b, c, -1}, static_cast<int>(all.size())});
+AngleAround::AngleAround(const Vec3& a, const Vec3& b, const Vec3& zero) : origin_(a) {
+  const Vec3 along = b - a, out = zero - a;
+  x_ = out - (dot(out, along) / dot(along, along)) * along;
+  y_ = (1 / norm(along)) * cross(along, x_);
+}
+
+VoidFaces open_faces(const Mesh& body) {
+  std::vector<std::pair<Quad, int>> all;  // with owners; triangles end with -1
+  for (const Quad& q : body.quads) all.emplace_back(q, static_cast<int>(all.size()));
+  for (const auto& [a, b, c] : body.triangles)
+    all.emplace_back(Quad{a, b, c, -1}, static_cast<int>(all.size()));
   for (int i = 0; i < static_cast<int>(n_solids(body)); ++i) {
     const Solid cell = solid_at(body, i);
     for (int k = 0; k < static_cast<int>(cell.shape->sides.size()); ++k) {
       Quad side = cell.side(k);
       std::reverse(side.begin(), side.end() - (side[3] < 0));
-      all.push_back({side, -1 - i});
+      all.emplace_back(side, -1 - i);
     }
   }
-  std::vector<std::pair<Quad, int>> keys;
-  for (const OpenFace& face : all) keys.emplace_back(side_key(face.corners()), static_cast<int>(keys.size()));
+  std::vector<std::pair<Quad, std::size_t>> keys;
+  for (const auto& [nodes, owner] : all) keys.emplace_back(side_key(nodes), keys.size());
   std::ranges::sort(keys);
   std::vector<char> is_open(all.size(), 1);
   for (std::size_t i = 1; i < keys.size(); ++i)
@@ -42,10 +49,18 @@ std::vector<OpenFace> open_faces(const Mesh& body) {
       is_open[keys[i - 1].second] = is_open[keys[i].second] = 0;
       ++i;
     }
-  std::size_t i = 0;
-  std::erase_if(all, [&](const OpenFace&) { return is_open[i++] == 0; });
-  std::ranges::stable_sort(all, {}, [](const OpenFace& f) { return f.nodes[3] < 0; });
-  return all;
+  VoidFaces open;
+  for (const bool is_triangle : {false, true})
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto& [v, owner] = all[i];
+      if (is_open[i] == 0 || (v[3] < 0) != is_triangle) continue;
+      open.owners.push_back(owner);
+      if (is_triangle)
+        open.triangles.push_back({v[0], v[1], v[2]});
+      else
+        open.quads.push_back(v);
+    }
+  return open;
 }
 
 Mesh part_with(const std::vector<Vec3>& points, std::span<const Quad> quads, std::vector<int>& numbers) {

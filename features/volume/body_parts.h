@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -26,15 +28,29 @@ inline Vec3 direction_of(const Vec3& v) {
 /// Returns the mean of points.
 Vec3 middle_of(const std::vector<Vec3>& points, std::span<const int> numbers);
 
-/// A face between a void and the skin or a cell, counterclockwise seen from outside of the void.
-struct OpenFace {
-  Quad nodes;  ///< the last is -1 for a triangle
-  int owner;   ///< face of the skin, quads first; -1 - i: cell i, hexahedra first
+/// Angles around the edge from a to b, counterclockwise seen from b; 0 at a point.
+class AngleAround {
+ public:
+  AngleAround(const Vec3& a, const Vec3& b, const Vec3& zero);
+  double operator()(const Vec3& p) const { return std::atan2(dot(p - origin_, y_), dot(p - origin_, x_)); }
 
-  std::span<const int> corners() const { return std::span(nodes).first(nodes[3] < 0 ? 3 : 4); }
+ private:
+  Vec3 origin_, x_, y_;
 };
-/// Returns the faces of the skin and the sides of cells that no other one touches, quads first.
-std::vector<OpenFace> open_faces(const Mesh& body);
+
+/// The faces between a void and the skin or cells, counterclockwise seen from outside of the void.
+struct VoidFaces {
+  std::vector<Quad> quads;
+  std::vector<Triangle> triangles;
+  std::vector<int> owners;  ///< face of the skin, or -1 - i: cell i; quads first, hexahedra first
+
+  std::span<const int> nodes(std::size_t face) const {
+    if (face < quads.size()) return quads[face];
+    return triangles[face - quads.size()];
+  }
+};
+/// Returns the faces of the skin and the sides of cells that no other one touches.
+VoidFaces open_faces(const Mesh& body);
 
 /// Returns quads with their points, in the order of use, and the numbers that these had.
 Mesh part_with(const std::vector<Vec3>& points, std::span<const Quad> quads, std::vector<int>& numbers);

@@ -68,13 +68,13 @@ void CellMesh::add(const Cell& cell) {
   const int c = static_cast<int>(cells_.size());
   cells_.push_back(cell);
   quality_.push_back(quality_with(cell));
-  for (int k = 0; k < n_corners(cell); ++k) at_[cell[k]].push_back(c);
+  for (const int v : nodes_of(cell)) at_[v].push_back(c);
   changes_.push_back({c, -1, {-1}, {}});
 }
 
 void CellMesh::remove(int c) {
   changes_.push_back({c, -1, cells_[c], {}});
-  for (int k = 0; k < n_corners(cells_[c]); ++k) std::erase(at_[cells_[c][k]], c);
+  for (const int v : nodes_of(cells_[c])) std::erase(at_[v], c);
   cells_[c].fill(-1);
   quality_[c] = 1;
 }
@@ -95,7 +95,7 @@ void CellMesh::undo(std::size_t state) {
     } else {
       cells_[change.cell] = change.corners;
       quality_[change.cell] = quality_with(change.corners);
-      for (int k = 0; k < n_corners(change.corners); ++k) at_[change.corners[k]].push_back(change.cell);
+      for (const int v : nodes_of(change.corners)) at_[v].push_back(change.cell);
     }
     changes_.resize(changes_.size() - (change.vertex >= 0 || change.corners[0] < 0 ? 2 : 1));
   }

@@ -5,24 +5,20 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "base/cancel.h"
 #include "base/located.h"
 #include "base/text.h"
 #include "delquad/hexahedra.h"
 #include "delquad/model.h"
-#include "features/volume/body_parts.h"
-#include "features/volume/fill_around.h"
-#include "features/volume/fill_void.h"
-#include "features/volume/find_bodies.h"
-#include "features/volume/layers.h"
-#include "features/volume/place_hexahedra.h"
-#include "features/volume/place_middle_nodes.h"
-#include "features/volume/place_prisms.h"
+#include "features/volume/fill_steps.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/check_mesh.h"
 #include "geometry/mesh/drop_unused_points.h"
 #include "geometry/mesh/entity_names.h"
+#include "geometry/mesh/half_edges.h"
 #include "metrics/cells.h"
 
 namespace delquad {
@@ -49,6 +45,14 @@ void check_skin(const Mesh& skin, long long max_elements) {
   if (skin.quads.empty()) throw InputError("the skin has no quads: expected a closed skin of quads");
   if (static_cast<long long>(skin.quads.size()) > max_elements)
     refuse("the skin has {} quads, and --max-elements allows {} cells", skin.quads.size(), max_elements);
+}
+
+/// Returns which regions have layers.
+std::vector<char> regions_with(const LayerSpec& layers, const Mesh& skin) {
+  std::vector<char> has_layers(skin.regions.size(), layers.on.empty());
+  for (const std::string& name : layers.on)
+    for (const int r : find_entities(skin.regions, "region", name, layers.where)) has_layers[r] = 1;
+  return has_layers;
 }
 
 /// Fills bodies one by one and collects their cells.
@@ -110,17 +114,7 @@ class SkinFiller {
     if (const double room = diagonal(result_); heights_.back() > room)
       refuse("{}: layers have a height of {:.3g}, and the model a diagonal of {:.3g}: expected lower layers",
              layers.where, heights_.back(), room);
-    has_layers_.assign(result_.regions.size(), options_.layers->on.empty() ? 1 : 0);
-    for (const std::string& name : options_.layers->on)
-      for (const int r : find_entities(result_.regions, "region", name, options_.layers->where))
-        has_layers_[r] = 1;
-  }
-
-  /// Returns which quads of a body have layers.
-  std::vector<char> layers_of(int body) const {
-    std::vector<char> marks;
-    for (const BodySide& side : bodies_[body]) marks.push_back(has_layers_[result_.quad_region[side.quad]]);
-    return marks;
+    has_layers_ = regions_with(layers, result_);
   }
 
   void tell_layers(ReadNotes& notes) const {
@@ -138,8 +132,12 @@ class SkinFiller {
   /// Adds the cells of a body, or fills `lost` with the sides that fail.
   void fill_body(int body, std::vector<int>& lost) {
     std::vector<Quad> quads;
+    std::vector<char> has_layers;
     std::vector<int> of_skin;
-    for (const BodySide& side : bodies_[body]) quads.push_back(split_[side.quad]);
+    for (const BodySide& side : bodies_[body]) {
+      quads.push_back(split_[side.quad]);
+      if (!heights_.empty()) has_layers.push_back(has_layers_[result_.quad_region[side.quad]]);
+    }
     Mesh part = part_with(result_.points, quads, of_skin);
     for (std::size_t i = 0; i < quads.size(); ++i)
       if (bodies_[body][i].is_reversed) std::swap(part.quads[i][1], part.quads[i][3]);
@@ -153,7 +151,7 @@ class SkinFiller {
     if (heights_.empty())
       place_cells(part), lost = fill_around(part, optimizes);
     else
-      lost = fill_with_layers(part, layers_of(body), heights_, place_cells, optimizes, grown_.emplace_back());
+      lost = fill_with_layers(part, has_layers, heights_, place_cells, optimizes, grown_.emplace_back());
     for (int& face : lost) face /= tets_alone() ? 2 : 1;
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
     if (!lost.empty()) return;
@@ -229,6 +227,28 @@ VolumeCells volume_cells(const std::string& name) {
   if (name == "pyramids-and-tets") return VolumeCells::kPyramidsAndTets;
   if (name == "tets") return VolumeCells::kTets;
   refuse("cells '{}': expected hex-dominant, pyramids-and-tets or tets", name);
+}
+
+LayerSpec layers_beside(const LayerSpec& layers, const Mesh& skin) {
+  constexpr double kMostFan = 120;  // degrees
+  const std::vector<char> has_layers = regions_with(layers, skin);
+  const std::vector<HalfEdge> sides = sorted_half_edges(skin);
+  std::set<std::string> on, into;
+  for (std::size_t l = 0; l < skin.lines.size(); ++l) {
+    std::set<int> with, without;
+    for (const HalfEdge& side : sides_of_edge(sides, skin.lines[l][0], skin.lines[l][1])) {
+      const int region = region_of(skin, side.element);
+      (has_layers[region] != 0 ? with : without).insert(region);
+    }
+    if (with.empty() || without.empty()) continue;
+    on.insert(fmt::format("curve_{}", skin.curves[skin.line_curve[l]].tag));
+    for (const int region : without) into.insert(fmt::format("region_{}", skin.regions[region].tag));
+  }
+  LayerSpec beside = layers;
+  beside.on.assign(on.begin(), on.end());
+  beside.into.assign(into.begin(), into.end());
+  beside.fan = kMostFan;
+  return beside;
 }
 
 Mesh fill_skin(const Mesh& skin, const VolumeOptions& options, ReadNotes* notes) {

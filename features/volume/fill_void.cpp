@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/fill_void.h"
+#include "features/volume/fill_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,10 @@
 #include <set>
 #include <utility>
 
+#include "base/cancel.h"
 #include "base/orientation.h"
 #include "base/sort_unique.h"
+#include "features/volume/cell_mesh.h"
 #include "features/volume/tetrahedralise.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/find_crossings.h"
@@ -30,50 +32,31 @@ Quad turned(const std::vector<Vec3>& p, Quad q, bool other) {
   return q;
 }
 
-/// A face of a tetrahedron, or of the boundary, with its vertices sorted.
-struct Face {
-  Triangle key;
-  int tetrahedron;  ///< -1 - i: triangle i of the boundary
-  bool is_even;  ///< the sorted vertices run counterclockwise seen from outside of the tetrahedron, or void
-};
-
-Face face_of(Triangle t, int tetrahedron) {
-  const bool odd = ((t[0] > t[1]) + (t[0] > t[2]) + (t[1] > t[2])) % 2 == 1;
-  std::ranges::sort(t);
-  return {t, tetrahedron, !odd};
-}
-
 /// Finds the tetrahedra in the void, and adds the lost triangles of the boundary to `lost`.
 std::vector<std::array<int, 4>> inner_tetrahedra(const Tetrahedra& made,
                                                  const std::vector<Triangle>& boundary,
                                                  std::vector<int>& lost) {
-  std::vector<Face> faces;
-  for (int c = 0; c < static_cast<int>(made.cells.size()); ++c) {
-    const auto& v = made.cells[c];
-    for (const auto& side : cell_tables::kTetSides)
-      faces.push_back(face_of({v[side[0]], v[side[1]], v[side[2]]}, c));
-  }
-  for (int i = 0; i < static_cast<int>(boundary.size()); ++i) faces.push_back(face_of(boundary[i], -1 - i));
-  std::ranges::sort(faces, {}, [](const Face& f) { return std::pair(f.key, f.tetrahedron); });
-  std::vector<std::vector<int>> neighbours(made.cells.size());
-  std::vector<char> is_inside(made.cells.size(), 0);
+  Mesh mesh;
+  mesh.tetrahedra = made.cells, mesh.tet_volume.resize(made.cells.size());
+  const std::vector<SolidSide> sides = sorted_sides(mesh);
+  std::vector<Quad> walls;
   std::vector<int> waiting;
-  for (std::size_t i = 0, j = 0; i < faces.size(); i = j) {
-    for (j = i; j < faces.size() && faces[j].key == faces[i].key;) ++j;
-    if (faces[i].tetrahedron >= 0) {
-      if (j - i == 2)
-        for (const std::size_t k : {i, i + 1})
-          neighbours[faces[k].tetrahedron].push_back(faces[2 * i + 1 - k].tetrahedron);
-      continue;
-    }
-    bool is_found = false;
-    for (std::size_t k = i + 1; k < j; ++k)
-      if (faces[k].tetrahedron >= 0 && faces[k].is_even == faces[i].is_even) {
-        waiting.push_back(faces[k].tetrahedron);
-        is_found = true;
-      }
-    if (!is_found) lost.push_back(-1 - faces[i].tetrahedron);
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    const auto [a, b, c] = boundary[i];
+    walls.push_back(side_key(boundary[i]));
+    const std::size_t n = waiting.size();
+    for (const auto& [nodes, at] : std::ranges::equal_range(sides, walls[i], {}, &SolidSide::nodes))
+      if (same_turn({a, b, c, -1}, solid_at(mesh, at.element).side(at.side))) waiting.push_back(at.element);
+    if (waiting.size() == n) lost.push_back(static_cast<int>(i));
   }
+  std::ranges::sort(walls);
+  std::vector<std::vector<int>> neighbours(made.cells.size());
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].nodes == sides[i - 1].nodes && !std::ranges::binary_search(walls, sides[i].nodes)) {
+      const int a = sides[i - 1].side.element, b = sides[i].side.element;
+      neighbours[a].push_back(b), neighbours[b].push_back(a);
+    }
+  std::vector<char> is_inside(made.cells.size(), 0);
   std::vector<std::array<int, 4>> inside;
   while (!waiting.empty()) {
     const int c = waiting.back();
@@ -85,6 +68,9 @@ std::vector<std::array<int, 4>> inner_tetrahedra(const Tetrahedra& made,
     if (is_inside[c]) inside.push_back(made.cells[c]);
   return inside;
 }
+
+/// A cell below this quality counts as flat. It is far above rounding.
+constexpr double kLeastQuality = 1e-6;
 
 /// Makes pyramids on quads.
 class PyramidMaker {
@@ -190,30 +176,46 @@ std::vector<Triangle> split(const std::vector<Quad>& quads, const std::vector<Tr
   return all;
 }
 
-/// Fills by given quads, whose diagonals from the first corners are used.
-Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads, bool is_improved) {
+struct Filling {
+  std::vector<Vec3> points;  ///< of the body, then new ones
+  std::vector<Cell> cells;   ///< hexahedra and prisms of the body too, as far as they remain
+  /// Faces at which the filling fails. All are listed if TetGen fails. If the list is empty, each quad is the
+  /// base of a pyramid, and all cells are positive.
+  std::vector<int> lost;
+};
+
+/// Fills by the diagonals from the first corners of quads, which are turned where triangles cross.
+Filling fill(const Mesh& body, VoidFaces faces, bool is_improved) {
   Filling result;
-  result.lost = untangle(boundary.points, quads, boundary.triangles);
+  auto& [quads, boundary, owners] = faces;
+  result.lost = untangle(body.points, quads, boundary);
   if (!result.lost.empty()) return result;
-  const std::vector<Triangle> triangles = split(quads, boundary.triangles);
+  const std::vector<Triangle> triangles = split(quads, boundary);
+  std::vector<Cell> blocks;
   std::vector<Vec3> holes;
-  for (const Cell& block : boundary.blocks) holes.push_back(middle_of(boundary.points, nodes_of(block)));
-  const auto made = tetrahedralise(boundary.points, triangles, holes);
+  for (std::size_t i = 0; i < n_solids(body); ++i) {
+    blocks.push_back(cell_of(solid_at(body, i).nodes));
+    holes.push_back(middle_of(body.points, solid_at(body, i).nodes));
+  }
+  const auto made = tetrahedralise(body.points, triangles, holes);
   if (!made) {
-    result.lost.resize(quads.size() + boundary.triangles.size());
+    result.lost.resize(quads.size() + boundary.size());
     std::iota(result.lost.begin(), result.lost.end(), 0);
     return result;
   }
-  const int n_quads = static_cast<int>(quads.size());
   const std::vector<std::array<int, 4>> inside = inner_tetrahedra(*made, triangles, result.lost);
   for (int& face : result.lost) face = face_at(face, quads.size());
   sort_unique(result.lost);
   if (!result.lost.empty()) return result;
-  CellMesh mesh(made->points, boundary.fixed);
+  std::vector<char> fixed(body.points.size(), 0);
+  for_each_element(body, [&](int, const auto& face) {
+    for (const int v : face) fixed[v] = 1;
+  });
+  CellMesh mesh(made->points, fixed);
   for (const auto& corners : inside) mesh.add(cell_of(corners));
   result.lost = PyramidMaker(mesh, quads).make();
   if (result.lost.empty()) {
-    for (const Cell& block : boundary.blocks) mesh.add(block);
+    for (const Cell& block : blocks) mesh.add(block);
     if (is_improved) {
       improve(mesh);
       divide_blocks(mesh);
@@ -228,34 +230,49 @@ Filling fill(const VoidBoundary& boundary, std::vector<Quad> quads, bool is_impr
     if (mesh.quality(static_cast<int>(c)) < kLeastQuality)
       flat.insert(mesh.cells()[c].begin(), mesh.cells()[c].end());
   }
-  const auto is_flat = [&](const auto& face) {
-    return std::ranges::count_if(face, [&](int v) { return flat.contains(v); }) > 1;
-  };
-  for (int i = 0; i < n_quads; ++i)
-    if (is_flat(quads[i])) result.lost.push_back(i);
-  for (std::size_t i = 0; i < boundary.triangles.size(); ++i)
-    if (is_flat(boundary.triangles[i])) result.lost.push_back(n_quads + static_cast<int>(i));
+  for (std::size_t f = 0; f < quads.size() + boundary.size(); ++f)
+    if (std::ranges::count_if(faces.nodes(f), [&](int v) { return flat.contains(v); }) > 1)
+      result.lost.push_back(static_cast<int>(f));
   sort_unique(result.lost);
   result.points = mesh.points();
   return result;
 }
 
-}  // namespace
-
-VoidBoundary boundary_of(const Mesh& body, const std::vector<OpenFace>& faces) {
-  VoidBoundary boundary{body.points, {}, {}, {}, std::vector<char>(body.points.size(), 0)};
-  for (const auto& [v, owner] : faces)
-    if (v[3] >= 0)
-      boundary.quads.push_back(v);
-    else
-      boundary.triangles.push_back({v[0], v[1], v[2]});
-  for (std::size_t i = 0; i < n_solids(body); ++i)
-    boundary.blocks.push_back(cell_of(solid_at(body, i).nodes));
-  for_each_element(body, [&](int, const auto& face) {
-    for (const int v : face) boundary.fixed[v] = 1;
-  });
-  return boundary;
+/// Fills a void. Tetrahedra come from tetrahedralise(). Two of them on a quad with a common apex become a
+/// pyramid. Elsewhere a new vertex splits the diagonal of the quad and is raised. Then cells are improved, if
+/// asked; blocks beside poor ones give way.
+Filling fill_void(const Mesh& body, const VoidFaces& faces, bool improve) {
+  Filling best;
+  std::vector<char> other(faces.quads.size(), 0);
+  constexpr int kAttempts = 3;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::vector<Quad> quads;
+    for (std::size_t q = 0; q < faces.quads.size(); ++q)
+      quads.push_back(turned(body.points, faces.quads[q], other[q]));
+    Filling filling = fill(body, {quads, faces.triangles, {}}, improve);
+    if (attempt == 0 || filling.lost.size() < best.lost.size()) best = filling;
+    if (best.lost.empty()) break;
+    for (const int face : filling.lost)
+      if (face < static_cast<int>(other.size())) other[face] ^= 1;
+  }
+  return best;
 }
+
+/// Returns the cells with one of these faces, or else those that share a vertex with one.
+std::vector<int> cells_at(const Mesh& body, const VoidFaces& faces, const std::vector<int>& lost) {
+  std::vector<int> owners;
+  std::vector<char> at(body.points.size(), 0);
+  for (const int f : lost) {
+    if (faces.owners[f] < 0) owners.push_back(-1 - faces.owners[f]);
+    for (const int v : faces.nodes(f)) at[v] = 1;
+  }
+  for (std::size_t i = 0, n = owners.empty() ? n_solids(body) : 0; i < n; ++i)
+    if (std::ranges::any_of(solid_at(body, i).nodes, [&](int v) { return at[v]; }))
+      owners.push_back(static_cast<int>(i));
+  return owners;
+}
+
+}  // namespace
 
 std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& quads,
                           const std::vector<Triangle>& triangles, Vec3* where) {
@@ -263,12 +280,12 @@ std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& qu
   for (int pass = 0;; ++pass) {
     const std::vector<Triangle> all = split(quads, triangles);
     std::vector<Crossing> tangles = find_crossings(points, all, [](int, int) { return false; });
-    std::vector<std::pair<Triangle, int>> sorted;
-    for (std::size_t i = 0; i < all.size(); ++i) sorted.emplace_back(face_of(all[i], 0).key, i);
+    std::vector<std::pair<Quad, int>> sorted;
+    for (std::size_t i = 0; i < all.size(); ++i) sorted.emplace_back(side_key(all[i]), i);
     std::ranges::sort(sorted);
     for (std::size_t i = 1; i < sorted.size(); ++i)
       if (sorted[i].first == sorted[i - 1].first)
-        tangles.push_back({sorted[i].second, sorted[i - 1].second, points[sorted[i].first[0]]});
+        tangles.push_back({sorted[i].second, sorted[i - 1].second, points[sorted[i].first[1]]});
     std::vector<int> faces;
     for (const Crossing& tangle : tangles)
       for (const int t : {tangle.first, tangle.second})
@@ -285,21 +302,25 @@ std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& qu
   }
 }
 
-Filling fill_void(const VoidBoundary& boundary, bool improve) {
-  Filling best;
-  std::vector<char> other(boundary.quads.size(), 0);
-  constexpr int kAttempts = 3;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    std::vector<Quad> quads;
-    for (std::size_t q = 0; q < boundary.quads.size(); ++q)
-      quads.push_back(turned(boundary.points, boundary.quads[q], other[q]));
-    Filling filling = fill(boundary, quads, improve);
-    if (attempt == 0 || filling.lost.size() < best.lost.size()) best = filling;
-    if (best.lost.empty()) break;
-    for (const int face : filling.lost)
-      if (face < static_cast<int>(other.size())) other[face] ^= 1;
+std::vector<int> fill_around(Mesh& body, bool improve) {
+  drop_cells(body, {});
+  for (;;) {
+    check_cancelled();
+    const VoidFaces faces = open_faces(body);
+    if (faces.owners.empty()) return {};
+    Filling filling = fill_void(body, faces, improve);
+    if (filling.lost.empty()) {
+      body.points = filling.points;
+      body.hexahedra.clear(), body.hex_volume.clear(), body.prisms.clear(), body.prism_volume.clear();
+      for (const Cell& cell : filling.cells) add_cell(body, nodes_of(cell), 0);
+      return {};
+    }
+    const std::vector<int> cells = cells_at(body, faces, filling.lost);
+    drop_cells(body, cells);
+    if (!cells.empty()) continue;
+    for (int& f : filling.lost) f = faces.owners[f];
+    return filling.lost;
   }
-  return best;
 }
 
 }  // namespace delquad

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/find_bodies.h"
+#include "features/volume/fill_steps.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include "base/disjoint_sets.h"
 #include "base/located.h"
 #include "base/text.h"
-#include "features/volume/body_parts.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/cells.h"
 
@@ -30,24 +29,6 @@ struct Shells {
   std::vector<Shell> all;
 };
 
-/// Sorts the sides of quads at an edge counterclockwise around it.
-std::vector<HalfEdge> around_edge(const Mesh& skin, std::span<const HalfEdge> sides) {
-  std::vector<HalfEdge> sorted(sides.begin(), sides.end());
-  if (sides.size() < 3) return sorted;
-  const Vec3 at = skin.points[sides[0].lo], along = skin.points[sides[0].hi] - at;
-  const auto across = [&](const HalfEdge& side) {
-    const Vec3 v = middle_of(skin.points, skin.quads[side.element]) - at;
-    return v - dot(v, along) / dot(along, along) * along;
-  };
-  const Vec3 x = across(sides[0]), y = (1 / norm(along)) * cross(along, x);
-  std::ranges::stable_sort(sorted, {}, [&](const HalfEdge& side) {
-    const Vec3 v = across(side);
-    const double angle = std::atan2(dot(v, y), dot(v, x));
-    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
-  });
-  return sorted;
-}
-
 Shells find_shells(const Mesh& skin) {
   const int n = static_cast<int>(skin.quads.size());
   DisjointSets spaces(2 * n), parts(n);
@@ -56,7 +37,12 @@ Shells find_shells(const Mesh& skin) {
     if (sides.size() == 1)
       refuse("the skin is open at the edge from {} to {}: a volume needs a closed skin",
              show_point(skin.points[sides[0].lo]), show_point(skin.points[sides[0].hi]));
-    const std::vector<HalfEdge> around = around_edge(skin, sides);
+    const auto middle = [&](const HalfEdge& side) {
+      return middle_of(skin.points, skin.quads[side.element]);
+    };
+    const AngleAround angle(skin.points[sides[0].lo], skin.points[sides[0].hi], middle(sides[0]));
+    std::vector<HalfEdge> around(sides.begin(), sides.end());
+    std::ranges::stable_sort(around, {}, [&](const HalfEdge& side) { return angle(middle(side)); });
     for (std::size_t i = 0; i < around.size(); ++i) {
       const HalfEdge &one = around[i], &next = around[(i + 1) % around.size()];
       // The normal of a quad that runs from lo to hi points counterclockwise around the edge.

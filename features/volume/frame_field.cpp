@@ -143,36 +143,20 @@ double scatter(unsigned i) {
 
 }  // namespace
 
-double Frame::length(const Vec3& v) const {
-  return std::max({std::abs(dot(v, axes[0])) / sizes[0], std::abs(dot(v, axes[1])) / sizes[1],
-                   std::abs(dot(v, axes[2])) / sizes[2]});
-}
-
-int Frame::nearest(const Vec3& v) const {
-  int best = 0;
-  double most = -1;
-  for (int k = 0; k < 3; ++k) {
-    const double part = dot(v, axes[k]);
-    if (std::abs(part) > most) most = std::abs(part), best = part > 0 ? k : k + 3;
-  }
-  return best;
-}
-
-FrameField::FrameField(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
-                       const Skin& skin)
-    : n_skin_(static_cast<int>(points.size())), points_(points) {
-  fix_skin(quads);
-  make_cells(points, skin);
+FrameField::FrameField(const Skin& skin)
+    : skin_(skin), n_skin_(static_cast<int>(skin.body().points.size())), points_(skin.body().points) {
+  fix_skin();
+  make_cells();
   diffuse();
 }
 
 /// Sets frames and known sizes at the skin.
-void FrameField::fix_skin(const std::vector<std::array<int, 4>>& quads) {
+void FrameField::fix_skin() {
   frames_.resize(n_skin_);
   known_.assign(n_skin_, {});
   values_.assign(n_skin_, FrameValues::Zero());
   std::vector<Axes> first(n_skin_, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  for (const auto& q : quads) {
+  for (const Quad& q : skin_.body().quads) {
     const Vec3 d = direction_of(points_[q[2]] - points_[q[0]]),
                e = direction_of(points_[q[3]] - points_[q[1]]);
     if (norm(cross(d, e)) < kFlat) continue;
@@ -183,12 +167,14 @@ void FrameField::fix_skin(const std::vector<std::array<int, 4>>& quads) {
   }
   std::vector<std::array<double, 6>> sums(n_skin_);
   for (int v = 0; v < n_skin_; ++v) frames_[v].axes = project(values_[v].head<kTerms>(), first[v]);
-  for (const auto& q : quads)
+  for (const Quad& q : skin_.body().quads)
     for (int k = 0; k < 4; ++k)
       for (const auto& [v, w] : {std::pair(q[k], q[(k + 1) % 4]), {q[(k + 1) % 4], q[k]}}) {
         const Vec3 e = points_[w] - points_[v];
-        const int axis = frames_[v].nearest(e) % 3;
-        if (std::abs(dot(e, frames_[v].axes[axis])) < 0.75 * norm(e)) continue;
+        std::array<double, 3> parts;
+        for (int i = 0; i < 3; ++i) parts[i] = std::abs(dot(e, frames_[v].axes[i]));
+        const auto axis = std::ranges::max_element(parts) - parts.begin();
+        if (parts[axis] < 0.75 * norm(e)) continue;
         sums[v][axis] += norm(e), sums[v][axis + 3] += 1;
       }
   for (int v = 0; v < n_skin_; ++v) {
@@ -204,23 +190,22 @@ void FrameField::fix_skin(const std::vector<std::array<int, 4>>& quads) {
   }
 }
 
-void FrameField::make_cells(const std::vector<Vec3>& points, const Skin& skin) {
+void FrameField::make_cells() {
   std::vector<double> sizes;
   for (int v = 0; v < n_skin_; ++v)
     sizes.push_back((values_[v][kTerms] + values_[v][kTerms + 1] + values_[v][kTerms + 2]) / 3);
   std::ranges::nth_element(sizes, sizes.begin() + n_skin_ / 2);
-  least_size_ = kLeastSize * sizes[n_skin_ / 2];
-  const Box<Vec3> box = Box<Vec3>::around(points);
+  usual_size_ = sizes[n_skin_ / 2];
+  const Box<Vec3> box = Box<Vec3>::around(std::span<const Vec3>(points_));
   const Vec3 extent = box.size();
-  const double step =
-      std::max(kSpacing * sizes[n_skin_ / 2], std::cbrt(extent.x * extent.y * extent.z / kMostGrid));
+  const double step = std::max(kSpacing * usual_size_, std::cbrt(extent.x * extent.y * extent.z / kMostGrid));
   unsigned counter = 0;
   for (double x = box.low.x + 0.5 * step; x < box.high.x; x += step)
     for (double y = box.low.y + 0.5 * step; y < box.high.y; y += step)
       for (double z = box.low.z + 0.5 * step; z < box.high.z; z += step) {
         const double dx = scatter(counter++), dy = scatter(counter++), dz = scatter(counter++);
         const Vec3 at = Vec3{x, y, z} + (0.2 * step) * Vec3{dx, dy, dz};
-        if (skin.distance(at, 0.6 * step) <= 0.6 * step || !skin.contains(at)) continue;
+        if (skin_.distance(at, 0.6 * step) <= 0.6 * step || !skin_.contains(at)) continue;
         points_.push_back(at);
       }
 
@@ -244,7 +229,7 @@ void FrameField::make_cells(const std::vector<Vec3>& points, const Skin& skin) {
   }
   beside_.resize(points_.size());
   for (const auto& c : cells_) {
-    if (!skin.contains(middle_of(points_, c))) continue;
+    if (!skin_.contains(middle_of(points_, c))) continue;
     for (const int v : c)
       for (const int w : c)
         if (const Vec3 e = points_[w] - points_[v]; v != w)
@@ -288,7 +273,8 @@ void FrameField::diffuse() {
 }
 
 void FrameField::set_sizes(Frame& frame, const FrameValues& values) const {
-  for (int k = 0; k < 3; ++k) frame.sizes[k] = std::max(least_size_, along(values, frame.axes[k]));
+  for (int k = 0; k < 3; ++k)
+    frame.sizes[k] = std::max(kLeastSize * usual_size_, along(values, frame.axes[k]));
 }
 
 Frame FrameField::at(const Vec3& x, const Frame& guess, int& cell) const {

@@ -17,14 +17,6 @@ namespace delquad {
 struct Frame {
   std::array<Vec3, 3> axes;
   std::array<double, 3> sizes;
-
-  /// Returns direction 0 to 5 of edges: along the axes, then against them.
-  Vec3 along(int direction) const { return direction < 3 ? axes[direction] : -1.0 * axes[direction - 3]; }
-  double size(int direction) const { return sizes[direction % 3]; }
-  /// Returns the L-infinity norm of v along the axes, in sizes.
-  double length(const Vec3& v) const;
-  /// Returns the direction nearest to v.
-  int nearest(const Vec3& v) const;
 };
 
 /// The coefficients of a frame's polynomial, then of the tensor of sizes.
@@ -38,8 +30,10 @@ using FrameValues = Eigen::Array<double, 21, 1>;
 /// Sizes are a tensor; across a smooth skin its value comes from inside.
 class FrameField {
  public:
-  FrameField(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads, const Skin& skin);
+  explicit FrameField(const Skin& skin);
 
+  /// Returns the median of the sizes at the skin.
+  double usual_size() const { return usual_size_; }
   const Frame& at_skin(int vertex) const { return frames_[vertex]; }
   /// Returns a tetrahedron at a vertex of the skin, for at().
   int cell_at_skin(int vertex) const { return cell_of_[vertex]; }
@@ -48,13 +42,14 @@ class FrameField {
   Frame at(const Vec3& x, const Frame& guess, int& cell) const;
 
  private:
-  void make_cells(const std::vector<Vec3>& points, const Skin& skin);
-  void fix_skin(const std::vector<std::array<int, 4>>& quads);
+  void make_cells();
+  void fix_skin();
   void diffuse();
   void set_sizes(Frame& frame, const FrameValues& values) const;
 
+  const Skin& skin_;
   int n_skin_;
-  double least_size_ = 0;
+  double usual_size_ = 0;
   std::vector<Vec3> points_;
   std::vector<std::array<int, 4>> cells_, neighbours_;
   std::vector<int> cell_of_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/sort_unique.h"
+#include "features/volume/body_parts.h"
 #include "features/volume/cell_mesh.h"
 #include "geometry/mesh/cell_shapes.h"
 
@@ -26,20 +27,26 @@ double mean_edge(const CellMesh& mesh, int v) {
   double sum = 0;
   int n = 0;
   for (const int c : mesh.at(v))
-    for (int k = 0; k < n_corners(mesh.cells()[c]); ++k)
-      if (const int w = mesh.cells()[c][k]; w != v) sum += norm(mesh.points()[w] - mesh.points()[v]), ++n;
+    for (const int w : nodes_of(mesh.cells()[c]))
+      if (w != v) sum += norm(mesh.points()[w] - mesh.points()[v]), ++n;
   return n > 0 ? sum / n : 0;
 }
+
+/// Returns the cells of a list below a quality, worst first.
+std::vector<std::pair<double, int>> cells_below(const CellMesh& mesh, const auto& cells, double quality) {
+  std::vector<std::pair<double, int>> worst;
+  for (const int c : cells)
+    if (mesh.is_alive(c) && mesh.quality(c) < quality) worst.emplace_back(mesh.quality(c), c);
+  std::ranges::sort(worst);
+  return worst;
+}
+auto all_cells(const CellMesh& mesh) { return std::views::iota(0, static_cast<int>(mesh.cells().size())); }
 
 /// Returns the gradients of the qualities of the cells at a vertex that are in a band above the least, by
 /// differences over a length.
 std::vector<Vec3> gradients(const CellMesh& mesh, int v, double band, double length) {
   constexpr std::size_t kMost = 8;
-  std::vector<std::pair<double, int>> worst;
-  const double least = mesh.least(mesh.at(v));
-  for (const int c : mesh.at(v))
-    if (mesh.quality(c) < least + band) worst.emplace_back(mesh.quality(c), c);
-  std::ranges::sort(worst);
+  auto worst = cells_below(mesh, mesh.at(v), mesh.least(mesh.at(v)) + band);
   if (worst.size() > kMost) worst.resize(kMost);
   std::vector<Vec3> all;
   for (const auto& [quality, c] : worst) {
@@ -167,12 +174,8 @@ bool improve_cell(CellMesh& mesh, int c) {
 /// Improves the cells that list() returns, worst first, until nothing changes or rounds end.
 void improve_all(CellMesh& mesh, int rounds, const auto& list) {
   for (bool changed = true; changed && rounds > 0; --rounds) {
-    std::vector<std::pair<double, int>> bad;
-    for (const int c : list())
-      if (mesh.is_alive(c) && mesh.quality(c) < kWanted) bad.emplace_back(mesh.quality(c), c);
-    std::ranges::sort(bad);
     changed = false;
-    for (const auto& [quality, c] : bad)
+    for (const auto& [quality, c] : cells_below(mesh, list(), kWanted))
       if (mesh.is_alive(c) && mesh.quality(c) < kWanted) changed |= improve_cell(mesh, c);
   }
 }
@@ -180,13 +183,10 @@ void improve_all(CellMesh& mesh, int rounds, const auto& list) {
 /// Divides a hexahedron or prism by its center.
 int divide(CellMesh& mesh, int c) {
   const Cell cell = mesh.cells()[c];
-  const int n = n_corners(cell);
-  Vec3 centre;
-  for (int k = 0; k < n; ++k) centre = centre + (1.0 / n) * mesh.points()[cell[k]];
-  const int m = mesh.add_point(centre);
+  const std::span<const int> nodes = nodes_of(cell);
+  const int m = mesh.add_point(middle_of(mesh.points(), nodes));
   mesh.remove(c);
-  const std::span<const int> nodes = std::span(cell).first(n);
-  const Solid solid{&solid_shape(n == 8 ? CellShape::kHexahedron : CellShape::kPrism), nodes};
+  const Solid solid{&solid_shape(nodes.size() == 8 ? CellShape::kHexahedron : CellShape::kPrism), nodes};
   for (int k = 0; k < static_cast<int>(solid.shape->sides.size()); ++k) {
     const auto [q, r, s, t] = solid.side(k);
     mesh.add(t < 0 ? cell_of(std::array{q, s, r, m}) : cell_of(std::array{q, t, s, r, m}));
@@ -230,21 +230,17 @@ double relocate(CellMesh& mesh, int v) {
 
 void improve(CellMesh& mesh) {
   constexpr int kRounds = 10;
-  improve_all(mesh, kRounds, [&] { return std::views::iota(0, static_cast<int>(mesh.cells().size())); });
+  improve_all(mesh, kRounds, [&] { return all_cells(mesh); });
 }
 
 void divide_blocks(CellMesh& mesh) {
   constexpr int kRounds = 3, kLocalRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<std::pair<double, int>> poor;
-    for (int c = 0; c < static_cast<int>(mesh.cells().size()); ++c)
-      if (mesh.is_alive(c) && mesh.quality(c) < kPoor) poor.emplace_back(mesh.quality(c), c);
-    std::ranges::sort(poor);
     bool changed = false;
-    for (const auto& [quality, c] : poor) {
+    for (const auto& [quality, c] : cells_below(mesh, all_cells(mesh), kPoor)) {
       if (!mesh.is_alive(c) || mesh.quality(c) >= kPoor) continue;
       const Cell cell = mesh.cells()[c];
-      const std::vector<int> corners(cell.begin(), cell.begin() + n_corners(cell));
+      const std::vector<int> corners(nodes_of(cell).begin(), nodes_of(cell).end());
       // Blocks by the number of common vertices, most first.
       std::vector<std::pair<int, int>> blocks;
       for (const int b : cells_at(mesh, corners)) {
@@ -283,12 +279,11 @@ void coarsen(CellMesh& mesh) {
     if (mesh.at(v).empty() || !mesh.is_free(v)) continue;
     std::vector<int> beside;
     for (const int c : mesh.at(v))
-      for (int k = 0; k < n_corners(mesh.cells()[c]); ++k)
-        if (mesh.cells()[c][k] != v) beside.push_back(mesh.cells()[c][k]);
+      beside.insert(beside.end(), nodes_of(mesh.cells()[c]).begin(), nodes_of(mesh.cells()[c]).end());
     sort_unique(beside);
     const double gain = std::min(0.0, kEnough - mesh.least(mesh.at(v)));
     for (const int w : beside)
-      if (collapse(mesh, v, w, gain)) break;
+      if (w != v && collapse(mesh, v, w, gain)) break;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <unordered_map>
 
 #include "base/sort_unique.h"
@@ -33,6 +34,8 @@ constexpr std::array<Vec3, 6> kTetrahedra = {{{1, 0, 0},
                                               {0.5, -0.5, kHeight},
                                               {-0.5, 0.5, kHeight},
                                               {-0.5, -0.5, kHeight}}};
+/// The same for cubes.
+constexpr std::array<Vec3, 3> kCubes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr int kMostNeighbours = 12;
 /// Slots of a point that has no neighbors.
 constexpr std::array<int, kMostNeighbours> kNone = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
@@ -40,48 +43,50 @@ constexpr std::array<int, kMostNeighbours> kNone = {-1, -1, -1, -1, -1, -1, -1, 
 /// Directions and lengths of a packing in frames.
 class Neighbours {
  public:
-  explicit Neighbours(Packing packing) : are_cubes_(packing == Packing::kCubes) {}
+  explicit Neighbours(Packing packing) : are_cubes_(packing == Packing::kCubes) {
+    if (are_cubes_) half_ = kCubes;
+  }
 
-  int number() const { return are_cubes_ ? 6 : kMostNeighbours; }
+  int number() const { return 2 * half(); }
   /// Returns the most points that may serve along a direction.
   std::size_t most_beside() const { return are_cubes_ ? 3 : 1; }
-  int opposite(int direction) const { return (direction + number() / 2) % number(); }
+  int opposite(int direction) const { return (direction + half()) % number(); }
   /// Returns the way to a neighbor.
   Vec3 step(const Frame& f, int direction) const {
-    if (are_cubes_) return f.size(direction) * f.along(direction);
-    const Vec3& c = kTetrahedra[direction % 6];
+    const Vec3& c = half_[direction % half()];
     const Vec3 v =
         (c.x * f.sizes[0]) * f.axes[0] + (c.y * f.sizes[1]) * f.axes[1] + (c.z * f.sizes[2]) * f.axes[2];
-    return direction < 6 ? v : -1.0 * v;
+    return direction < half() ? v : -1.0 * v;
   }
   /// Returns the mean of the ways by two frames: of directions and of lengths.
   Vec3 step(const Frame& f, const Frame& g, int direction) const {
-    if (are_cubes_) {
-      const Vec3 mid = f.along(direction) + g.along(direction);
-      return (0.5 * (f.size(direction) + g.size(direction)) / norm(mid)) * mid;
-    }
-    return 0.5 * (step(f, direction) + step(g, direction));
+    if (!are_cubes_) return 0.5 * (step(f, direction) + step(g, direction));
+    const int k = direction % 3;
+    const Vec3 mid = f.axes[k] + g.axes[k];
+    return ((direction < 3 ? 0.5 : -0.5) * (f.sizes[k] + g.sizes[k]) / norm(mid)) * mid;
   }
   /// Returns the direction nearest to v.
   int nearest(const Frame& f, const Vec3& v) const {
-    if (are_cubes_) return f.nearest(v);
-    const Vec3 u = in_sizes(f, v);
+    const Vec3 u = in_sizes(are_cubes_ ? Frame{f.axes, {1, 1, 1}} : f, v);
     int best = 0;
-    for (int d = 1; d < 6; ++d)
-      if (std::abs(dot(u, kTetrahedra[d])) > std::abs(dot(u, kTetrahedra[best]))) best = d;
-    return dot(u, kTetrahedra[best]) > 0 ? best : best + 6;
+    for (int d = 1; d < half(); ++d)
+      if (std::abs(dot(u, half_[d])) > std::abs(dot(u, half_[best]))) best = d;
+    return dot(u, half_[best]) > 0 ? best : best + half();
   }
   /// Returns the norm of v in sizes.
   double length(const Frame& f, const Vec3& v) const {
-    return are_cubes_ ? f.length(v) : norm(in_sizes(f, v));
+    const Vec3 u = in_sizes(f, v);
+    return are_cubes_ ? std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)}) : norm(u);
   }
 
  private:
+  int half() const { return static_cast<int>(half_.size()); }
   static Vec3 in_sizes(const Frame& f, const Vec3& v) {
     return {dot(v, f.axes[0]) / f.sizes[0], dot(v, f.axes[1]) / f.sizes[1], dot(v, f.axes[2]) / f.sizes[2]};
   }
 
   bool are_cubes_;
+  std::span<const Vec3> half_ = kTetrahedra;
 };
 
 /// Finds points near a place, in cells of several lengths, so that each search visits few cells.
@@ -125,28 +130,20 @@ class PointGrid {
 };
 
 double least(const Frame& f) { return std::min({f.sizes[0], f.sizes[1], f.sizes[2]}); }
-double mean(const Frame& f) { return (f.sizes[0] + f.sizes[1] + f.sizes[2]) / 3; }
-
-/// Returns the median of the sizes at the skin.
-double usual_size(const FrameField& field, int n_skin) {
-  std::vector<double> sizes;
-  for (int v = 0; v < n_skin; ++v) sizes.push_back(mean(field.at_skin(v)));
-  std::ranges::nth_element(sizes, sizes.begin() + n_skin / 2);
-  return sizes[n_skin / 2];
+/// Returns a radius around all places within a distance, which is in sizes.
+double reach_of(const Frame& f, double distance) {
+  return distance * norm(Vec3{f.sizes[0], f.sizes[1], f.sizes[2]});
 }
 
 class PointFront {
  public:
-  PointFront(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads, const Skin& skin,
-             const FrameField& field, Packing packing)
+  PointFront(const Skin& skin, const FrameField& field, Packing packing)
       : neighbours_(packing),
-        quads_(quads),
         skin_(skin),
         field_(field),
-        n_skin_(static_cast<int>(points.size())),
-        usual_(usual_size(field, n_skin_)),
-        grid_(usual_) {
-    for (int v = 0; v < n_skin_; ++v) add(points[v], field.at_skin(v), field.cell_at_skin(v));
+        n_skin_(static_cast<int>(skin.body().points.size())),
+        grid_(field.usual_size()) {
+    for (int v = 0; v < n_skin_; ++v) add(skin.body().points[v], field.at_skin(v), field.cell_at_skin(v));
   }
 
   Lattice fill() {
@@ -155,7 +152,7 @@ class PointFront {
       find_slots();
       if (round == kRounds) break;
       for (int move = 0; move < kMoves; ++move) relax();
-      update_frames();
+      for (int p = n_skin_; p < size(); ++p) frames_[p] = field_.at(points_[p], frames_[p], cells_[p]);
       thin();
       find_slots();
     }
@@ -170,7 +167,7 @@ class PointFront {
         if (slots_[p][d] >= 0) join(lattice.best, p, slots_[p][d]);
         for (const int q : candidates(p, d)) join(lattice.beside, p, q);
       }
-    for (const auto& q : quads_)
+    for (const auto& q : skin_.body().quads)
       for (int k = 0; k < 4; ++k) join(lattice.best, q[k], q[(k + 1) % 4]);
     for (std::size_t p = 0; p < points_.size(); ++p) {
       sort_unique(lattice.best[p]);
@@ -194,8 +191,7 @@ class PointFront {
   /// Returns the point nearest to x in the norm of `frame`, without `own`, and its distance.
   std::pair<int, double> nearest(const Vec3& x, const Frame& frame, double limit, int own) const {
     std::pair<int, double> best = {-1, limit};
-    const double reach = limit * norm(Vec3{frame.sizes[0], frame.sizes[1], frame.sizes[2]});
-    grid_.near(x, reach, [&](int q) {
+    grid_.near(x, reach_of(frame, limit), [&](int q) {
       if (q == own) return;
       const double d = neighbours_.length(frame, points_[q] - x);
       if (d < best.second || (d == best.second && best.first > q)) best = {q, d};
@@ -238,7 +234,7 @@ class PointFront {
   /// Sets the slots anew by places; on the skin along sides of quads first.
   void find_slots() {
     for (auto& slots : slots_) slots = kNone;
-    for (const auto& q : quads_)
+    for (const auto& q : skin_.body().quads)
       for (int k = 0; k < 4; ++k)
         for (const auto& [v, w] : {std::pair(q[k], q[(k + 1) % 4]), {q[(k + 1) % 4], q[k]}}) {
           const Vec3 e = points_[w] - points_[v];
@@ -258,7 +254,7 @@ class PointFront {
     const Frame& f = frames_[p];
     const Vec3 x = points_[p] + neighbours_.step(f, direction);
     std::vector<std::pair<double, int>> near;
-    grid_.near(x, kEdge * norm(Vec3{f.sizes[0], f.sizes[1], f.sizes[2]}), [&](int q) {
+    grid_.near(x, reach_of(f, kEdge), [&](int q) {
       const double distance = neighbours_.length(f, points_[q] - x);
       if (q == p || distance >= kEdge) return;
       if (p < n_skin_ && q < n_skin_) {
@@ -289,14 +285,7 @@ class PointFront {
         count[p] += 1, count[q] += 1;
       }
     for (int p = n_skin_; p < size(); ++p) {
-      if (count[p] == 0) continue;
-      points_[p] = 0.2 * points_[p] + (0.8 / count[p]) * sum[p];
-    }
-  }
-
-  void update_frames() {
-    for (int p = n_skin_; p < size(); ++p) {
-      frames_[p] = field_.at(points_[p], frames_[p], cells_[p]);
+      if (count[p] > 0) points_[p] = 0.2 * points_[p] + (0.8 / count[p]) * sum[p];
     }
   }
 
@@ -305,7 +294,7 @@ class PointFront {
   }
 
   void rebuild_grid() {
-    grid_ = PointGrid(usual_);
+    grid_ = PointGrid(field_.usual_size());
     for (int p = 0; p < size(); ++p) grid_.add(p, points_[p]);
   }
 
@@ -320,7 +309,7 @@ class PointFront {
     for (int p = n_skin_; p < size(); ++p) {
       if (goes[p]) continue;
       const Frame& f = frames_[p];
-      grid_.near(points_[p], kCrowded * norm(Vec3{f.sizes[0], f.sizes[1], f.sizes[2]}), [&](int q) {
+      grid_.near(points_[p], reach_of(f, kCrowded), [&](int q) {
         if (q == p || goes[q] || neighbours_.length(f, points_[q] - points_[p]) > kCrowded) return;
         if (q < n_skin_ || std::pair(links(p), q) <= std::pair(links(q), p)) goes[p] = 1;
       });
@@ -328,19 +317,16 @@ class PointFront {
     int kept = 0;
     for (int p = 0; p < size(); ++p) {
       if (goes[p]) continue;
-      points_[kept] = points_[p], frames_[kept] = frames_[p], cells_[kept] = cells_[p];
-      ++kept;
+      points_[kept] = points_[p], frames_[kept] = frames_[p], cells_[kept++] = cells_[p];
     }
     points_.resize(kept), frames_.resize(kept), cells_.resize(kept), slots_.resize(kept);
     rebuild_grid();
   }
 
   const Neighbours neighbours_;
-  const std::vector<std::array<int, 4>>& quads_;
   const Skin& skin_;
   const FrameField& field_;
   const int n_skin_;
-  const double usual_;
   std::vector<Vec3> points_;
   std::vector<Frame> frames_;
   std::vector<int> cells_;  ///< of the field
@@ -350,9 +336,8 @@ class PointFront {
 
 }  // namespace
 
-Lattice fill_with_points(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
-                         const Skin& skin, const FrameField& field, Packing packing) {
-  return PointFront(points, quads, skin, field, packing).fill();
+Lattice fill_with_points(const Skin& skin, const FrameField& field, Packing packing) {
+  return PointFront(skin, field, packing).fill();
 }
 
 }  // namespace delquad

@@ -33,7 +33,6 @@ enum class Packing {
 /// point at one size along each direction of the packing. It is kept if no other is too near in the norm of
 /// its frame. Then points move to where their neighbors want them, crowded points go, and the front fills
 /// gaps again.
-Lattice fill_with_points(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads,
-                         const Skin& skin, const FrameField& field, Packing packing);
+Lattice fill_with_points(const Skin& skin, const FrameField& field, Packing packing);
 
 }  // namespace delquad

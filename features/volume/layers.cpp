@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/layers.h"
+#include "features/volume/fill_steps.h"
 
 #include <algorithm>
 #include <array>
@@ -14,9 +14,6 @@
 #include "base/cancel.h"
 #include "base/parallel_each.h"
 #include "base/sort_unique.h"
-#include "features/volume/body_parts.h"
-#include "features/volume/fill_around.h"
-#include "features/volume/fill_void.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "metrics/cells.h"
@@ -120,7 +117,7 @@ class LayerGrower {
 
   /// The body without layers, whose points are `points_of_rest`. Its last quads are folded.
   Mesh rest(std::vector<int>& points_of_rest) const {
-    return part_with(cells_.points, quads_of_front(), points_of_rest);
+    return part_with(cells_.points, front_, points_of_rest);
   }
   /// Splits folded quads of a front into triangles.
   void split_folded(std::vector<Quad>& quads, std::vector<Triangle>& triangles) const {
@@ -129,7 +126,7 @@ class LayerGrower {
   }
   /// The quad of the body at a face of such a front, quads first.
   int quad_of(std::size_t face) const {
-    return front_[face < n_flat_ ? face : n_flat_ + (face - n_flat_) / 2].second;
+    return below_[face < n_flat_ ? face : n_flat_ + (face - n_flat_) / 2];
   }
 
   /// Points, and cells whose volumes are the quads below them.
@@ -230,16 +227,20 @@ class LayerGrower {
       from = at;
     }
     if (at_[row.back()].kind != Kind::kOff) return {};
-    double length = 0;
-    std::vector<double> ends;
+    const double scale = height_of(row, v, row.size()) / heights_.back();
     for (std::size_t k = 0; k < row.size(); ++k)
-      ends.push_back(length += norm(body_.points[row[k]] - body_.points[k == 0 ? v : row[k - 1]]));
-    const double scale = length / heights_.back();
-    if (scale > kSimilar) return {};
-    for (std::size_t k = 0; k < row.size(); ++k)
-      if (const double ratio = ends[k] / heights_[k] / scale; ratio > kSimilar || ratio * kSimilar < 1)
+      if (const double ratio = height_of(row, v, k + 1) / heights_[k] / scale;
+          scale > kSimilar || ratio > kSimilar || ratio * kSimilar < 1)
         return {};
     return row;
+  }
+
+  /// The height of the first points of a row above its foot.
+  double height_of(const std::vector<int>& row, int foot, std::size_t n) const {
+    double sum = 0;
+    for (const int w : std::span(row).first(n))
+      sum += norm(body_.points[w] - body_.points[std::exchange(foot, w)]);
+    return sum;
   }
 
   /// Finds where layers may stand on rows of quads without layers.
@@ -268,13 +269,11 @@ class LayerGrower {
             if (const auto found = bare.find(side_key(side)); found != bare.end())
               rim.sides.push_back(found->second);
           }
-        if (rim.sides.size() == heights_.size())
-          for (const int v : {a, b}) at_[v].kind = Kind::kRows;
+        if (rim.sides.size() == heights_.size()) at_[a].kind = at_[b].kind = Kind::kRows;
         rims_.push_back(rim);
       }
     for (const Rim& rim : rims_)
-      if (rim.sides.size() < heights_.size())
-        for (const int v : {rim.a, rim.b}) at_[v].kind = Kind::kEnd;
+      if (rim.sides.size() < heights_.size()) at_[rim.a].kind = at_[rim.b].kind = Kind::kEnd;
   }
 
   /// Limits heights where other quads are near.
@@ -314,8 +313,7 @@ class LayerGrower {
   bool end_rims() {
     bool any = false;
     for (const Rim& rim : rims_)
-      for (const auto& [v, w] : {std::pair(rim.a, rim.b), std::pair(rim.b, rim.a)})
-        if (at_[v].kind == Kind::kEnd && at_[w].kind != Kind::kEnd) at_[w].kind = Kind::kEnd, any = true;
+      if (stands(rim.a) != stands(rim.b)) at_[rim.a].kind = at_[rim.b].kind = Kind::kEnd, any = true;
     return any;
   }
 
@@ -325,10 +323,9 @@ class LayerGrower {
     for (std::size_t i = 0; i < at_.size(); ++i) {
       const int v = static_cast<int>(i);
       Place& at = at_[i];
-      at.height = at.kind == Kind::kFree ? at.limit * heights_.back() : 0;
-      int from = v;
-      if (at.kind == Kind::kRows)
-        for (const int w : at.row) at.height += norm(body_.points[w] - body_.points[std::exchange(from, w)]);
+      at.height = at.kind == Kind::kFree   ? at.limit * heights_.back()
+                  : at.kind == Kind::kRows ? height_of(at.row, v, at.row.size())
+                                           : 0;
       if (at.kind != Kind::kOff) queue.emplace(at.height, v);
     }
     while (!queue.empty()) {
@@ -370,21 +367,22 @@ class LayerGrower {
     for (const Rim& rim : rims_)
       if (at_[rim.a].kind == Kind::kRows)
         for (const int q : rim.sides) is_side[q] = 1;
-    front_.clear();
-    std::vector<std::pair<Quad, int>> folded;
-    for (int q = 0; q < static_cast<int>(body_.quads.size()); ++q) {
-      if (is_side[q] != 0) continue;
-      const int turn = has_layers_[q] != 0 ? fold_of(body_.quads[q]) : -1;
-      Quad top = body_.quads[q];
-      if (has_layers_[q] != 0) {
-        for (int& v : top) v = point(v, heights_.size());
-        for (std::size_t level = 0; level < heights_.size(); ++level) add_cells(q, level);
+    front_.clear(), below_.clear();
+    for (const bool is_folded : {false, true}) {
+      if (is_folded) n_flat_ = front_.size();
+      for (int q = 0; q < static_cast<int>(body_.quads.size()); ++q) {
+        if (is_side[q] != 0) continue;
+        const bool grows = has_layers_[q] != 0;
+        for (std::size_t level = 0; level < heights_.size() && grows && !is_folded; ++level)
+          add_cells(q, level);
+        const int turn = grows ? fold_of(body_.quads[q]) : -1;
+        if ((turn >= 0) != is_folded) continue;
+        Quad& top = front_.emplace_back(body_.quads[q]);
+        for (int& v : top) v = grows ? point(v, heights_.size()) : v;
+        std::ranges::rotate(top, top.begin() + std::max(turn, 0));
+        below_.push_back(q);
       }
-      if (turn >= 0) std::rotate(top.begin(), top.begin() + turn, top.end());
-      (turn < 0 ? front_ : folded).emplace_back(top, q);
     }
-    n_flat_ = front_.size();
-    front_.insert(front_.end(), folded.begin(), folded.end());
   }
 
   bool stands(int v) const { return at_[v].kind != Kind::kEnd; }
@@ -462,24 +460,18 @@ class LayerGrower {
     std::vector<int> quads(n_solids(cells_), -1);
     parallel_each(quads.size(), [&](std::size_t i) {
       const Solid cell = solid_at(cells_, i);
-      std::array<Vec3, 8> corners;
-      for (std::size_t k = 0; k < cell.nodes.size(); ++k) corners[k] = cells_.points[cell.nodes[k]];
-      if (!is_positive(std::span(corners).first(cell.nodes.size()))) quads[i] = cell.volume;
+      std::vector<Vec3> corners;
+      for (const int v : cell.nodes) corners.push_back(cells_.points[v]);
+      if (!is_positive(corners)) quads[i] = cell.volume;
     });
     std::erase(quads, -1);
-    return quads;
-  }
-
-  std::vector<Quad> quads_of_front() const {
-    std::vector<Quad> quads;
-    for (const auto& [quad, of] : front_) quads.push_back(quad);
     return quads;
   }
 
   /// The quads of the body at which fronts cross.
   std::vector<int> quads_of_crossings() const {
     std::vector<int> quads;
-    std::vector<Quad> front = quads_of_front();
+    std::vector<Quad> front = front_;
     std::vector<Triangle> triangles;
     split_folded(front, triangles);
     for (const int f : untangle(cells_.points, front, triangles)) quads.push_back(quad_of(f));
@@ -499,9 +491,8 @@ class LayerGrower {
   std::vector<Place> at_;                   ///< by point
   std::vector<Rim> rims_;
   Mesh cells_;
-  /// The skin of the rest, and the quads of the body there. Behind the flat ones are those that are folded
-  /// along the diagonal from their first corner.
-  std::vector<std::pair<Quad, int>> front_;
+  std::vector<Quad> front_;  ///< of the rest; those behind the flat ones are folded from the first corner
+  std::vector<int> below_;   ///< quads of the body there
   std::size_t n_flat_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/place_hexahedra.h"
+#include "features/volume/fill_steps.h"
 
 #include <fmt/format.h>
 
@@ -22,17 +22,17 @@ namespace {
 /// State between the stages of a strategy.
 struct Placement {
   const Mesh& body;
-  Skin skin{body.points, body.quads};
-  FrameField field{body.points, body.quads, skin};
+  Skin skin{body};
+  FrameField field{skin};
   Lattice lattice = {};
   Mesh placed = {};  ///< the quads and the hexahedra between points of the lattice
 
   void add_points(Packing packing) {
-    lattice = fill_with_points(body.points, body.quads, skin, field, packing);
+    lattice = fill_with_points(skin, field, packing);
     placed.points = lattice.points, placed.quads = body.quads;
   }
   std::vector<Hexahedron> between(const std::vector<std::vector<int>>& beside) const {
-    return find_hexahedra(placed.points, beside, body.quads, skin);
+    return find_hexahedra(placed.points, beside, skin);
   }
   void choose(const std::vector<Hexahedron>& candidates) {
     placed.hexahedra = select_hexahedra(placed.points, body.quads, candidates);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/place_middle_nodes.h"
+#include "features/volume/fill_steps.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/place_prisms.h"
+#include "features/volume/fill_steps.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <vector>
 
-#include "features/volume/fill_void.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "metrics/cells.h"
 
@@ -51,7 +50,7 @@ std::vector<Prism> find_prisms(const std::map<Quad, Quad>& open) {
 
 void place_prisms(Mesh& volume) {
   std::map<Quad, Quad> open;  // by nodes
-  for (const OpenFace& face : open_faces(volume)) open.emplace(side_key(face.nodes), face.nodes);
+  for (const Quad& quad : open_faces(volume).quads) open.emplace(side_key(quad), quad);
   std::vector<std::pair<double, Prism>> found;
   for (const Prism& prism : find_prisms(open)) {
     const auto corners = corners_of(volume.points, prism);
@@ -66,11 +65,10 @@ void place_prisms(Mesh& volume) {
     add_cell(volume, prism, 0);
   }
   for (bool changed = true; changed;) {
-    const std::vector<OpenFace> faces = open_faces(volume);
-    VoidBoundary boundary = boundary_of(volume, faces);
+    VoidFaces faces = open_faces(volume);
     std::vector<int> crossing;
-    for (const int f : untangle(volume.points, boundary.quads, boundary.triangles))
-      if (faces[f].nodes[3] < 0) crossing.push_back(-1 - faces[f].owner);
+    for (const int f : untangle(volume.points, faces.quads, faces.triangles))
+      if (faces.nodes(f).size() == 3) crossing.push_back(-1 - faces.owners[f]);
     changed = !crossing.empty();
     drop_cells(volume, crossing);
   }

@@ -8,7 +8,7 @@
 #include <queue>
 
 #include "base/box_tree.h"
-#include "base/parallel.h"
+#include "base/parallel_each.h"
 #include "base/sort_unique.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/find_crossings.h"
@@ -41,26 +41,10 @@ bool is_edge(int a, int b) {
   return b == x || b == y || b == z;
 }
 
-/// Returns the side with these corners, bits by corner; -1: none.
-int side_with(unsigned corners) {
-  for (int s = 0; s < 6; ++s) {
-    unsigned bits = 0;
-    for (const int c : kHexSides[s]) bits |= 1u << c;
-    if (bits == corners) return s;
-  }
-  return -1;
-}
-
 using Corners = std::array<Vec3, 8>;
 
-Vec3 centre_of(const Corners& x) {
-  Vec3 sum{0, 0, 0};
-  for (const Vec3& p : x) sum = sum + p;
-  return 0.125 * sum;
-}
-
 Quad side_of(const Hexahedron& hex, int s) {
-  return {hex[kHexSides[s][0]], hex[kHexSides[s][1]], hex[kHexSides[s][2]], hex[kHexSides[s][3]]};
+  return Solid{&solid_shape(CellShape::kHexahedron), hex}.side(s);
 }
 
 /// A hexahedron with all that tests of pairs need.
@@ -74,8 +58,7 @@ struct Placed {
 };
 
 Placed placed(const std::vector<Vec3>& points, const Hexahedron& hex) {
-  Placed s{hex, corners_of(points, hex), {}, 0, {}, {}};
-  s.centre = centre_of(s.x);
+  Placed s{hex, corners_of(points, hex), middle_of(points, hex), 0, {}, {}};
   for (const auto& [a, b] : kHexEdges) s.edge += norm(s.x[b] - s.x[a]) / 12;
   for (int k = 0; k < 6; ++k) {
     const auto& f = kHexSides[k];
@@ -137,22 +120,18 @@ bool are_apart_at(const Placed& a, int i, const Placed& b, int j) {
   return false;
 }
 
-/// Angles around an edge of a hexahedron, 0 at its center.
+/// A hexahedron around one of its edges, 0 at its center.
 struct Wedge {
-  Vec3 origin, x, y;
+  AngleAround angle;
   double least = 0, most = 0;  ///< of the other corners
 
-  Wedge(const Corners& at, int i, int j) : origin(at[i]) {
-    const Vec3 along = at[j] - origin, out = centre_of(at) - origin;
-    x = out - (dot(out, along) / dot(along, along)) * along;
-    y = (1 / norm(along)) * cross(along, x);
+  Wedge(const Corners& at, const Vec3& centre, int i, int j) : angle(at[i], at[j], centre) {
     for (int k = 0; k < 8; ++k) {
       if (k == i || k == j) continue;
       const double t = angle(at[k]);
       most = std::max(most, t), least = std::min(least, t);
     }
   }
-  double angle(const Vec3& p) const { return std::atan2(dot(p - origin, y), dot(p - origin, x)); }
   /// Returns whether a point lies beyond the wedge by an angle.
   bool is_clear(const Vec3& p, double by) const {
     const double t = angle(p), turned = t < 0 ? t + 2 * std::numbers::pi : t;
@@ -162,7 +141,7 @@ struct Wedge {
 
 /// Returns whether the hexahedra lie in disjoint wedges around their common edge.
 bool are_apart_around(const Placed& a, const Placed& b, int i, int j) {
-  const Wedge wedge(a.x, i, j);
+  const Wedge wedge(a.x, a.centre, i, j);
   for (int k = 0; k < 8; ++k)
     if (b.hex[k] != a.hex[i] && b.hex[k] != a.hex[j] && !wedge.is_clear(b.x[k], kLeastWedge)) return false;
   return true;
@@ -170,26 +149,20 @@ bool are_apart_around(const Placed& a, const Placed& b, int i, int j) {
 
 bool are_compatible(const Placed& a, const Placed& b) {
   if (norm(a.centre - b.centre) < kTooNear * std::min(a.edge, b.edge)) return false;
-  unsigned in_a = 0, in_b = 0;
-  int i = -1, j = -1, k2 = -1, l2 = -1, shared = 0;
+  std::array<int, 8> i, j;  // shared corners
+  int n = 0;
   for (int k = 0; k < 8; ++k)
     for (int l = 0; l < 8; ++l)
-      if (a.hex[k] == b.hex[l]) {
-        in_a |= 1u << k, in_b |= 1u << l;
-        if (shared++ == 0)
-          i = k, j = l;
-        else
-          k2 = k, l2 = l;
-      }
-  if (shared == 0) return are_apart(a, b);
-  if (shared == 1) return are_apart_at(a, i, b, j);
-  if (shared == 2) return is_edge(i, k2) && is_edge(j, l2) && are_apart_around(a, b, i, k2);
-  if (shared != 4) return false;
-  const int s = side_with(in_a), t = side_with(in_b);
-  if (s < 0 || t < 0) return false;
-  const auto f = side_of(a.hex, s), g = side_of(b.hex, t);
-  const auto at = std::ranges::find(g, f[0]) - g.begin();
-  return g[(at + 3) % 4] == f[1] && g[(at + 2) % 4] == f[2];
+      if (a.hex[k] == b.hex[l]) i[n] = k, j[n++] = l;
+  if (n == 0) return are_apart(a, b);
+  if (n == 1) return are_apart_at(a, i[0], b, j[0]);
+  if (n == 2) return is_edge(i[0], i[1]) && is_edge(j[0], j[1]) && are_apart_around(a, b, i[0], i[1]);
+  for (int s = 0; s < 6 && n == 4; ++s)
+    for (int t = 0; t < 6; ++t) {
+      const Quad f = side_of(a.hex, s), g = side_of(b.hex, t);
+      if (side_key(f) == side_key(g)) return same_turn(f, {g[3], g[2], g[1], g[0]});
+    }
+  return false;
 }
 
 /// The edges and quads of the skin.
@@ -200,28 +173,18 @@ class SkinParts {
       for (const int v : quads[q]) at_[v].push_back(static_cast<int>(q));
   }
   bool on(int v) const { return !at_[v].empty(); }
-  /// Returns 0: the points share no quad; 1: they are joined by a side, 2: by a diagonal only.
-  int join(int a, int b) const {
-    int best = 0;
+  /// Returns the quads with both points, the first one first.
+  std::vector<Quad> with(int a, int b) const {
+    std::vector<Quad> found;
     for (const int q : at_[a])
-      for (int k = 0; k < 4; ++k) {
-        if (quads_[q][k] != a) continue;
-        if (quads_[q][(k + 1) % 4] == b || quads_[q][(k + 3) % 4] == b) return 1;
-        if (quads_[q][(k + 2) % 4] == b) best = 2;
+      if (std::ranges::find(quads_[q], b) != quads_[q].end()) {
+        Quad& quad = found.emplace_back(quads_[q]);
+        std::ranges::rotate(quad, std::ranges::find(quad, a));
       }
-    return best;
+    return found;
   }
-  /// Calls visit(quad) for the quads that have both points.
-  template <class Visit>
-  void around(int a, int b, Visit visit) const {
-    for (const int q : at_[a])
-      if (std::ranges::find(quads_[q], b) != quads_[q].end()) visit(quads_[q]);
-  }
-  /// Returns the quad with these vertices; -1: none.
-  int quad(const Quad& side) const {
-    for (const int q : at_[side[0]])
-      if (side_key(quads_[q]) == side_key(side)) return q;
-    return -1;
+  bool has(const Quad& side) const {
+    return std::ranges::any_of(at_[side[0]], [&](int q) { return side_key(quads_[q]) == side_key(side); });
   }
 
  private:
@@ -241,45 +204,42 @@ bool fits_skin(const Hexahedron& hex, const std::vector<Vec3>& points, const Ski
   int n_on = 0;
   for (const int v : hex) n_on += parts.on(v);
   if (n_on < 2) return true;
-  for (int a = 0; a < 8; ++a)
-    for (int b = a + 1; b < 8; ++b) {
-      if (!parts.on(hex[a]) || !parts.on(hex[b])) continue;
-      const int join = parts.join(hex[a], hex[b]);
-      if (is_edge(a, b)) {
-        if (join == 2) return false;
-        if (join == 0 && !is_inside(0.5 * (points[hex[a]] + points[hex[b]]))) return false;
-        if (join == 1) {
-          const Wedge wedge(corners_of(points, hex), a, b);
-          bool is_clear = true;
-          parts.around(hex[a], hex[b], [&](const Quad& quad) {
-            if (std::ranges::all_of(quad, [&](int v) { return std::ranges::find(hex, v) != hex.end(); }))
-              return;
-            for (const int v : quad)
-              is_clear &= v == hex[a] || v == hex[b] || wedge.is_clear(points[v], kSkinWedge);
-          });
-          if (!is_clear) return false;
-        }
-      } else if (join == 1) {
-        return false;
-      } else if (join == 2) {
-        bool found = false;
+  const auto has = [](const auto& nodes, int v) { return std::ranges::find(nodes, v) != nodes.end(); };
+  for (int i = 0; i < 8; ++i)
+    for (int j = i + 1; j < 8; ++j) {
+      const int a = hex[i], b = hex[j];
+      if (!parts.on(a) || !parts.on(b)) continue;
+      const std::vector<Quad> quads = parts.with(a, b);
+      const bool is_side = std::ranges::any_of(quads, [&](const Quad& q) { return q[2] != b; });
+      if (!is_edge(i, j)) {
+        // A diagonal must lie in a side that is a quad of the skin.
+        bool is_diagonal = quads.empty();
         for (int s = 0; s < 6; ++s) {
-          const auto side = side_of(hex, s);
-          found |= std::ranges::count(side, hex[a]) + std::ranges::count(side, hex[b]) == 2 &&
-                   parts.quad(side) >= 0;
+          const Quad side = side_of(hex, s);
+          is_diagonal |= has(side, a) && has(side, b) && parts.has(side);
         }
-        if (!found) return false;
+        if (is_side || !is_diagonal) return false;
+      } else if (quads.empty()) {
+        if (!is_inside(0.5 * (points[a] + points[b]))) return false;
+      } else if (!is_side) {
+        return false;
+      } else {
+        const Wedge wedge(corners_of(points, hex), middle_of(points, hex), i, j);
+        for (const Quad& quad : quads) {
+          if (std::ranges::all_of(quad, [&](int v) { return has(hex, v); })) continue;
+          for (const int v : quad)
+            if (v != a && v != b && !wedge.is_clear(points[v], kSkinWedge)) return false;
+        }
       }
     }
   for (int s = 0; s < 6; ++s) {
-    const auto side = side_of(hex, s);
+    const Quad side = side_of(hex, s);
     int on = 0;
     Vec3 sum{0, 0, 0};
     for (const int v : side)
       if (parts.on(v)) ++on, sum = sum + points[v];
-    if (on < 3) continue;
-    const int q = on == 4 ? parts.quad(side) : -1;
-    if (q >= 0 ? false : !is_inside((1.0 / on) * sum)) return false;
+    if (on < 3 || (on == 4 && parts.has(side))) continue;
+    if (!is_inside((1.0 / on) * sum)) return false;
   }
   return true;
 }
@@ -287,56 +247,53 @@ bool fits_skin(const Hexahedron& hex, const std::vector<Vec3>& points, const Ski
 }  // namespace
 
 std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
-                                       const std::vector<std::vector<int>>& beside,
-                                       const std::vector<Quad>& quads, const Skin& skin) {
-  const SkinParts parts(points.size(), quads);
+                                       const std::vector<std::vector<int>>& beside, const Skin& skin) {
+  const SkinParts parts(points.size(), skin.body().quads);
   std::vector<std::vector<Hexahedron>> found(points.size());
-  parallel_ranges(points.size(), [&](std::size_t begin, std::size_t end) {
+  parallel_each(points.size(), [&](std::size_t i) {
     std::vector<int> ab, bc, ca, last;
-    for (std::size_t i = begin; i < end; ++i) {
-      const int v = static_cast<int>(i);
-      const auto common = [&](int a, int b, std::vector<int>& into) {
-        into.clear();
-        std::ranges::set_intersection(beside[a], beside[b], std::back_inserter(into));
-        std::erase_if(into, [&](int w) { return w <= v; });
-      };
-      const auto is_corner = [&](int at, int a, int b, int c) {
-        const Vec3 e = points[a] - points[at], f = points[b] - points[at], g = points[c] - points[at];
-        return dot(e, cross(f, g)) >= kLeastJacobian * norm(e) * norm(f) * norm(g);
-      };
-      const auto& near = beside[v];
-      std::vector<std::pair<double, Hexahedron>> here;
-      for (const int a : near)
-        for (const int b : near)
-          for (const int c : near) {
-            if (a <= v || b <= a || c <= a || b == c) continue;
-            if (!is_corner(v, a, b, c)) continue;
-            common(a, b, ab);
-            if (ab.empty()) continue;
-            common(b, c, bc);
-            if (bc.empty()) continue;
-            common(c, a, ca);
-            for (const int x : ab)
-              for (const int y : bc)
-                for (const int z : ca) {
-                  if (x == c || y == a || z == b || x == y || y == z || z == x) continue;
-                  if (!is_corner(a, x, v, z) || !is_corner(b, v, x, y) || !is_corner(c, y, z, v)) continue;
-                  common(x, y, last);
-                  for (const int w : last) {
-                    if (w == a || w == b || w == c || w == z || !std::ranges::binary_search(beside[w], z))
-                      continue;
-                    const Hexahedron hex = {v, a, x, b, c, z, w, y};
-                    if (const double quality = scaled_jacobian(corners_of(points, hex));
-                        quality >= kLeastJacobian && is_positive(corners_of(points, hex)))
-                      here.emplace_back(-quality, hex);
-                  }
+    const int v = static_cast<int>(i);
+    const auto common = [&](int a, int b, std::vector<int>& into) {
+      into.clear();
+      std::ranges::set_intersection(beside[a], beside[b], std::back_inserter(into));
+      std::erase_if(into, [&](int w) { return w <= v; });
+    };
+    const auto is_corner = [&](int at, int a, int b, int c) {
+      const Vec3 e = points[a] - points[at], f = points[b] - points[at], g = points[c] - points[at];
+      return dot(e, cross(f, g)) >= kLeastJacobian * norm(e) * norm(f) * norm(g);
+    };
+    const auto& near = beside[v];
+    std::vector<std::pair<double, Hexahedron>> here;
+    for (const int a : near)
+      for (const int b : near)
+        for (const int c : near) {
+          if (a <= v || b <= a || c <= a || b == c) continue;
+          if (!is_corner(v, a, b, c)) continue;
+          common(a, b, ab);
+          if (ab.empty()) continue;
+          common(b, c, bc);
+          if (bc.empty()) continue;
+          common(c, a, ca);
+          for (const int x : ab)
+            for (const int y : bc)
+              for (const int z : ca) {
+                if (x == c || y == a || z == b || x == y || y == z || z == x) continue;
+                if (!is_corner(a, x, v, z) || !is_corner(b, v, x, y) || !is_corner(c, y, z, v)) continue;
+                common(x, y, last);
+                for (const int w : last) {
+                  if (w == a || w == b || w == c || w == z || !std::ranges::binary_search(beside[w], z))
+                    continue;
+                  const Hexahedron hex = {v, a, x, b, c, z, w, y};
+                  if (const double quality = scaled_jacobian(corners_of(points, hex));
+                      quality >= kLeastJacobian && is_positive(corners_of(points, hex)))
+                    here.emplace_back(-quality, hex);
                 }
-          }
-      std::ranges::sort(here);
-      for (const auto& [quality, hex] : here) {
-        if (found[i].size() >= kMostAtVertex) break;
-        if (fits_skin(hex, points, parts, skin)) found[i].push_back(hex);
-      }
+              }
+        }
+    std::ranges::sort(here);
+    for (const auto& [quality, hex] : here) {
+      if (found[i].size() >= kMostAtVertex) break;
+      if (fits_skin(hex, points, parts, skin)) found[i].push_back(hex);
     }
   });
   std::vector<Hexahedron> all;
@@ -348,8 +305,8 @@ std::vector<char> enclosed_points(const Mesh& body) {
   std::vector<char> is_enclosed(body.points.size(), 0);
   for (const Hexahedron& hex : body.hexahedra)
     for (const int v : hex) is_enclosed[v] = 1;
-  for (const OpenFace& face : open_faces(body))
-    for (const int v : face.nodes) is_enclosed[v] = 0;
+  for (const Quad& quad : open_faces(body).quads)
+    for (const int v : quad) is_enclosed[v] = 0;
   return is_enclosed;
 }
 
@@ -364,12 +321,11 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const 
   }
   const BoxTree<Vec3> tree(boxes);
   std::vector<std::vector<int>> rivals(n);
-  parallel_ranges(n, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      tree.overlapping(boxes[i], [&](int j) {
-        if (static_cast<int>(i) < j && boxes[i].overlaps(boxes[j]) && !are_compatible(all[i], all[j]))
-          rivals[i].push_back(j);
-      });
+  parallel_each(all.size(), [&](std::size_t i) {
+    tree.overlapping(boxes[i], [&](int j) {
+      if (static_cast<int>(i) < j && boxes[i].overlaps(boxes[j]) && !are_compatible(all[i], all[j]))
+        rivals[i].push_back(j);
+    });
   });
   for (int i = 0; i < n; ++i)
     for (const int j : std::vector(rivals[i]))
@@ -386,37 +342,32 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const 
   for (const auto& q : quads)
     if (const auto found = by_side.find(side_key(q)); found != by_side.end())
       for (const int i : found->second) worth[i] += 1;
-  enum State : char { kOpen, kChosen, kLost };
-  std::vector<State> state(n, kOpen);
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry> queue;
+  std::vector<char> is_chosen(n, 0);
+  std::vector<int> against(n, 0);  // chosen rivals
+  const auto choose = [&](int i, bool in) {
+    is_chosen[i] = in;
+    for (const int j : rivals[i]) against[j] += in ? 1 : -1;
+  };
+  const auto is_open = [&](int i) { return !is_chosen[i] && against[i] == 0; };
+  std::priority_queue<std::pair<double, int>> queue;
   for (int i = 0; i < n; ++i) queue.push({worth[i], -i});
   while (!queue.empty()) {
     const auto [value, minus] = queue.top();
     queue.pop();
     const int i = -minus;
-    if (state[i] != kOpen || value != worth[i]) continue;
-    state[i] = kChosen;
-    for (const int j : rivals[i]) state[j] = kLost;
+    if (!is_open(i) || value != worth[i]) continue;
+    choose(i, true);
     for (int s = 0; s < 6; ++s)
       for (const int j : by_side[side_key(side_of(candidates[i], s))])
-        if (state[j] == kOpen) worth[j] += 1, queue.push({worth[j], -j});
+        if (is_open(j)) worth[j] += 1, queue.push({worth[j], -j});
   }
 
   // One out, others in: exchanges while the weight grows.
-  std::vector<int> against(n, 0);
-  const auto set = [&](int i, State to) {
-    const int change = to == kChosen ? 1 : -1;
-    state[i] = to;
-    for (const int j : rivals[i]) against[j] += change;
-  };
-  for (int i = 0; i < n; ++i)
-    if (state[i] == kChosen) set(i, kChosen);
   bool changed = true;
   for (int round = 0; changed && round < kExchangeRounds; ++round) {
     changed = false;
     for (int i = 0; i < n; ++i) {
-      if (state[i] != kChosen) continue;
+      if (!is_chosen[i]) continue;
       std::vector<int> in;
       double sum = 0;
       for (const int j : rivals[i])
@@ -424,37 +375,37 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const 
             std::ranges::none_of(in, [&](int k) { return std::ranges::binary_search(rivals[j], k); }))
           in.push_back(j), sum += weight[j];
       if (sum <= weight[i] + 1e-9) continue;
-      set(i, kLost);
-      for (const int j : in) set(j, kChosen);
+      choose(i, false);
+      for (const int j : in) choose(j, true);
       changed = true;
     }
     for (int i = 0; i < n; ++i)
-      if (state[i] != kChosen && against[i] == 0) set(i, kChosen), changed = true;
+      if (is_open(i)) choose(i, true), changed = true;
   }
   std::vector<Hexahedron> chosen;
   for (int i = 0; i < n; ++i)
-    if (state[i] == kChosen) chosen.push_back(candidates[i]);
+    if (is_chosen[i]) chosen.push_back(candidates[i]);
   return chosen;
 }
 
 void separate_sides(Mesh& body) {
   for (std::vector<int> worse(1); !worse.empty();) {
-    const std::vector<OpenFace> faces = open_faces(body);
+    const auto [quads, none, owners] = open_faces(body);
     std::vector<Triangle> triangles;
     double length = 0;
-    for (const auto& [q, owner] : faces) {
+    for (const Quad& q : quads) {
       for (int k = 0; k < 4; ++k) triangles.push_back({q[k], q[(k + 1) % 4], q[(k + 2) % 4]});
-      length += norm(body.points[q[1]] - body.points[q[0]]) / static_cast<double>(faces.size());
+      length += norm(body.points[q[1]] - body.points[q[0]]) / static_cast<double>(quads.size());
     }
-    const auto may_cross = [&](int a, int b) {
-      return a / 4 == b / 4 || (faces[a / 4].owner >= 0 && faces[b / 4].owner >= 0);
+    const auto may_cross = [&, &owners = owners](int a, int b) {
+      return a / 4 == b / 4 || (owners[a / 4] >= 0 && owners[b / 4] >= 0);
     };
     const auto quality = [&](int owner) {  // quads of the skin stay
       return owner >= 0 ? 2 : scaled_jacobian(corners_of(body.points, body.hexahedra[-1 - owner]));
     };
     worse.clear();
     for (const Crossing& c : find_crossings(body.points, triangles, may_cross, 1e-3 * length)) {
-      const int a = faces[c.first / 4].owner, b = faces[c.second / 4].owner;
+      const int a = owners[c.first / 4], b = owners[c.second / 4];
       worse.push_back(-1 - (quality(a) < quality(b) ? a : b));
     }
     drop_cells(body, worse);

@@ -17,8 +17,7 @@ using Hexahedron = std::array<int, 8>;
 /// Returns hexahedra between points whose twelve edges join points that lie `beside` each other. Each is
 /// there once. They meet the skin only in its vertices, edges and quads.
 std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
-                                       const std::vector<std::vector<int>>& beside,
-                                       const std::vector<Quad>& quads, const Skin& skin);
+                                       const std::vector<std::vector<int>>& beside, const Skin& skin);
 
 /// Returns hexahedra of which two share nothing, a vertex, an edge or a side, and do not overlap. They are
 /// chosen greedily from the skin inwards, then exchanged while their number grows.

@@ -22,12 +22,11 @@ bool is_hit(const Vec3& x, const std::array<Vec3, 3>& triangle) {
 
 }  // namespace
 
-Skin::Skin(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads)
-    : nearest_(points, halves_of(quads)) {
+Skin::Skin(const Mesh& body) : body_(body), nearest_(body.points, halves_of(body.quads)) {
   std::vector<Box<Vec3>> boxes;
-  for (const auto& [a, b, c] : halves_of(quads)) {
-    corners_.push_back({points[a], points[b], points[c]});
-    boxes.push_back(Box<Vec3>::around({points[a], points[b], points[c]}));
+  for (const Triangle& t : halves_of(body.quads)) {
+    corners_.push_back({body.points[t[0]], body.points[t[1]], body.points[t[2]]});
+    boxes.push_back(Box<Vec3>::around(std::span<const Vec3>(corners_.back())));
   }
   tree_ = BoxTree<Vec3>(boxes);
 }

@@ -16,7 +16,10 @@ namespace delquad {
 class Skin {
  public:
   /// Throws std::invalid_argument without quads.
-  Skin(const std::vector<Vec3>& points, const std::vector<std::array<int, 4>>& quads);
+  explicit Skin(const Mesh& body);
+
+  /// The body with the quads, whose points are corners of these.
+  const Mesh& body() const { return body_; }
 
   /// Returns whether x lies inside: whether a ray from x crosses the skin an odd number of times.
   bool contains(const Vec3& x) const;
@@ -24,6 +27,7 @@ class Skin {
   double distance(const Vec3& x, double reach) const { return nearest_.find(x, reach).distance; }
 
  private:
+  const Mesh& body_;
   std::vector<std::array<Vec3, 3>> corners_;
   NearestTriangle nearest_;
   BoxTree<Vec3> tree_;

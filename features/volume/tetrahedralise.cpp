@@ -10,7 +10,7 @@
 
 #include "base/orientation.h"
 #include "base/process.h"
-#include "base/sort_unique.h"
+#include "geometry/mesh/drop_unused_points.h"
 
 namespace delquad {
 
@@ -65,15 +65,13 @@ std::optional<Tetrahedra> tetrahedralise(const std::vector<Vec3>& points,
                                          const std::vector<std::array<int, 3>>& triangles,
                                          const std::vector<Vec3>& holes) {
   constexpr unsigned kSeconds = 60, kTrianglesPerSecond = 1000;  // a hundred times its usual time
-  std::vector<int> used;
-  for (const auto& t : triangles) used.insert(used.end(), t.begin(), t.end());
-  sort_unique(used);
-  std::vector<Vec3> corners;
-  for (const int v : used) corners.push_back(points[v]);
-  std::vector<std::array<int, 3>> numbered = triangles;
-  for (auto& t : numbered)
-    for (int& v : t) v = static_cast<int>(std::ranges::lower_bound(used, v) - used.begin());
-  const auto bytes = call_in_child([&] { return run_tetgen(corners, numbered, holes); },
+  Mesh given;
+  given.points = points, given.triangles = triangles;
+  const std::vector<int> number = drop_unused_points(given);
+  std::vector<int> used(given.points.size());
+  for (std::size_t v = 0; v < number.size(); ++v)
+    if (number[v] >= 0) used[number[v]] = static_cast<int>(v);
+  const auto bytes = call_in_child([&] { return run_tetgen(given.points, given.triangles, holes); },
                                    kSeconds + static_cast<unsigned>(triangles.size()) / kTrianglesPerSecond);
   int n = 0;
   if (!bytes || bytes->size() < sizeof n) return std::nullopt;
@@ -87,11 +85,11 @@ std::optional<Tetrahedra> tetrahedralise(const std::vector<Vec3>& points,
   at += (n - n_used) * sizeof(Vec3);
   result.cells.resize((bytes->data() + bytes->size() - at) / sizeof(result.cells[0]));
   std::memcpy(result.cells.data(), at, result.cells.size() * sizeof(result.cells[0]));
-  for (auto& c : result.cells)
-    for (int& v : c) v = v < n_used ? used[v] : v - n_used + n_given;
   const auto& p = result.points;
-  for (auto& c : result.cells)
+  for (auto& c : result.cells) {
+    for (int& v : c) v = v < n_used ? used[v] : v - n_used + n_given;
     if (orient3d(p[c[0]], p[c[1]], p[c[2]], p[c[3]]) < 0) std::swap(c[0], c[1]);
+  }
   return result;
 }
 

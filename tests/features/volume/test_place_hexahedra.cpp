@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/place_hexahedra.h"
+#include "features/volume/fill_steps.h"
 
 #include "delquad/hexahedra.h"
 #include "geometry/mesh/find_crossings.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/place_prisms.h"
+#include "features/volume/fill_steps.h"
 
 #include "tests/features/volume/volume_checks.h"
 
