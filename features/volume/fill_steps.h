@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,6 +68,13 @@ void place_prisms(Mesh& volume);
 /// does.
 std::vector<int> untangle(const std::vector<Vec3>& points, std::vector<Quad>& quads,
                           const std::vector<Triangle>& triangles, Vec3* where = nullptr);
+
+/// Returns all given points, then new points off the triangles, and a constrained Delaunay tetrahedralization
+/// by TetGen, in a separate process. All regions that triangles enclose are filled, also cavities; `holes`
+/// are points of regions to leave out. The triangles should be faces of tetrahedra, but TetGen may lose some.
+/// Returns nothing if TetGen refuses the triangles, crashes or exceeds its time. Source: [si2015].
+std::optional<Mesh> tetrahedralise(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
+                                   const std::vector<Vec3>& holes);
 
 /// Adds pyramids and tetrahedra to a body. Its quads and triangles are the closed skin and look outwards; its
 /// hexahedra and prisms lie inside and may use quads as faces. They go where the filling fails, and

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "base/cancel.h"
+#include "base/disjoint_sets.h"
 #include "base/orientation.h"
 #include "base/sort_unique.h"
 #include "features/volume/cell_mesh.h"
-#include "features/volume/tetrahedralise.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/find_crossings.h"
 #include "geometry/mesh/half_edges.h"
@@ -33,39 +33,29 @@ Quad turned(const std::vector<Vec3>& p, Quad q, bool other) {
 }
 
 /// Finds the tetrahedra in the void, and adds the lost triangles of the boundary to `lost`.
-std::vector<std::array<int, 4>> inner_tetrahedra(const Tetrahedra& made,
-                                                 const std::vector<Triangle>& boundary,
-                                                 std::vector<int>& lost) {
-  Mesh mesh;
-  mesh.tetrahedra = made.cells, mesh.tet_volume.resize(made.cells.size());
-  const std::vector<SolidSide> sides = sorted_sides(mesh);
+std::vector<Quad> inner_tetrahedra(const Mesh& made, const std::vector<Triangle>& boundary,
+                                   std::vector<int>& lost) {
+  const std::vector<SolidSide> sides = sorted_sides(made);
   std::vector<Quad> walls;
-  std::vector<int> waiting;
+  std::vector<int> at_walls;
   for (std::size_t i = 0; i < boundary.size(); ++i) {
     const auto [a, b, c] = boundary[i];
     walls.push_back(side_key(boundary[i]));
-    const std::size_t n = waiting.size();
+    const std::size_t n = at_walls.size();
     for (const auto& [nodes, at] : std::ranges::equal_range(sides, walls[i], {}, &SolidSide::nodes))
-      if (same_turn({a, b, c, -1}, solid_at(mesh, at.element).side(at.side))) waiting.push_back(at.element);
-    if (waiting.size() == n) lost.push_back(static_cast<int>(i));
+      if (same_turn({a, b, c, -1}, solid_at(made, at.element).side(at.side))) at_walls.push_back(at.element);
+    if (at_walls.size() == n) lost.push_back(static_cast<int>(i));
   }
   std::ranges::sort(walls);
-  std::vector<std::vector<int>> neighbours(made.cells.size());
+  DisjointSets parts(made.tetrahedra.size());
   for (std::size_t i = 1; i < sides.size(); ++i)
-    if (sides[i].nodes == sides[i - 1].nodes && !std::ranges::binary_search(walls, sides[i].nodes)) {
-      const int a = sides[i - 1].side.element, b = sides[i].side.element;
-      neighbours[a].push_back(b), neighbours[b].push_back(a);
-    }
-  std::vector<char> is_inside(made.cells.size(), 0);
-  std::vector<std::array<int, 4>> inside;
-  while (!waiting.empty()) {
-    const int c = waiting.back();
-    waiting.pop_back();
-    if (std::exchange(is_inside[c], 1)) continue;
-    waiting.insert(waiting.end(), neighbours[c].begin(), neighbours[c].end());
-  }
-  for (std::size_t c = 0; c < made.cells.size(); ++c)
-    if (is_inside[c]) inside.push_back(made.cells[c]);
+    if (sides[i].nodes == sides[i - 1].nodes && !std::ranges::binary_search(walls, sides[i].nodes))
+      parts.join(sides[i - 1].side.element, sides[i].side.element);
+  std::vector<char> is_inside(made.tetrahedra.size(), 0);
+  for (const int c : at_walls) is_inside[parts.root(c)] = 1;
+  std::vector<Quad> inside;
+  for (std::size_t c = 0; c < made.tetrahedra.size(); ++c)
+    if (is_inside[parts.root(static_cast<int>(c))]) inside.push_back(made.tetrahedra[c]);
   return inside;
 }
 
@@ -191,19 +181,16 @@ Filling fill(const Mesh& body, VoidFaces faces, bool is_improved) {
   result.lost = untangle(body.points, quads, boundary);
   if (!result.lost.empty()) return result;
   const std::vector<Triangle> triangles = split(quads, boundary);
-  std::vector<Cell> blocks;
   std::vector<Vec3> holes;
-  for (std::size_t i = 0; i < n_solids(body); ++i) {
-    blocks.push_back(cell_of(solid_at(body, i).nodes));
+  for (std::size_t i = 0; i < n_solids(body); ++i)
     holes.push_back(middle_of(body.points, solid_at(body, i).nodes));
-  }
   const auto made = tetrahedralise(body.points, triangles, holes);
   if (!made) {
     result.lost.resize(quads.size() + boundary.size());
     std::iota(result.lost.begin(), result.lost.end(), 0);
     return result;
   }
-  const std::vector<std::array<int, 4>> inside = inner_tetrahedra(*made, triangles, result.lost);
+  const std::vector<Quad> inside = inner_tetrahedra(*made, triangles, result.lost);
   for (int& face : result.lost) face = face_at(face, quads.size());
   sort_unique(result.lost);
   if (!result.lost.empty()) return result;
@@ -215,7 +202,7 @@ Filling fill(const Mesh& body, VoidFaces faces, bool is_improved) {
   for (const auto& corners : inside) mesh.add(cell_of(corners));
   result.lost = PyramidMaker(mesh, quads).make();
   if (result.lost.empty()) {
-    for (const Cell& block : blocks) mesh.add(block);
+    for (std::size_t i = 0; i < n_solids(body); ++i) mesh.add(cell_of(solid_at(body, i).nodes));
     if (is_improved) {
       improve(mesh);
       divide_blocks(mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/frame_field.h"
+#include "features/volume/hexahedra_steps.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "base/sort_unique.h"
-#include "features/volume/body_parts.h"
 
 namespace delquad {
 namespace {

@@ -250,8 +250,7 @@ void divide_blocks(CellMesh& mesh) {
         if (b == c || shared > 1) blocks.emplace_back(-static_cast<int>(shared), b);
       }
       std::ranges::sort(blocks);
-      const double before = mesh.least(cells_at(mesh, corners));
-      double best = before + kGain;
+      double best = mesh.least(cells_at(mesh, corners)) + kGain;
       int chosen = -1;
       const auto attempt = [&](int b) {
         std::vector<int> around = corners;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/lattice_points.h"
+#include "features/volume/hexahedra_steps.h"
 
 #include <algorithm>
 #include <cmath>

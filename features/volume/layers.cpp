@@ -94,7 +94,7 @@ class LayerGrower {
   void grow() {
     do {
       check_cancelled();
-      settle();
+      while (end_rims() || limit_slopes()) continue;
       place();
     } while (shrink(quads_of_poor_cells(), kShrinkOfCells) || shrink(quads_of_crossings()));
   }
@@ -109,8 +109,7 @@ class LayerGrower {
         if ((at.kind != Kind::kFree && at.kind != Kind::kRows) || std::exchange(done[v], 1) != 0) continue;
         any = true;
         at.limit *= kShrink;
-        at.shrinks += times;
-        if (at.shrinks > kShrinks) at.kind = Kind::kEnd;
+        if ((at.shrinks += times) > kShrinks) at.kind = Kind::kEnd;
       }
     return any;
   }
@@ -136,10 +135,8 @@ class LayerGrower {
     GrownLayers told;
     for (std::size_t q = 0; q < body_.quads.size(); ++q) {
       if (has_layers_[q] == 0) continue;
-      if (std::ranges::all_of(body_.quads[q], [&](int v) { return at_[v].kind == Kind::kEnd; })) {
-        if (++told.n_bare == 1) told.bare_at = body_.points[body_.quads[q][0]];
-        continue;
-      }
+      if (std::ranges::none_of(body_.quads[q], [&](int v) { return stands(v); }) && ++told.n_bare == 1)
+        told.bare_at = body_.points[body_.quads[q][0]];
       for (const int v : body_.quads[q])
         if (at_[v].kind == Kind::kFree && at_[v].limit < told.least)
           told.least = at_[v].limit, told.least_at = body_.points[v];
@@ -186,11 +183,8 @@ class LayerGrower {
   void find_directions() {
     for (std::size_t v = 0; v < at_.size(); ++v) {
       Place& at = at_[v];
+      if (at.kind == Kind::kFree && !is_fan(static_cast<int>(v))) at.kind = Kind::kEnd;
       if (at.kind != Kind::kFree) continue;
-      if (!is_fan(static_cast<int>(v))) {
-        at.kind = Kind::kEnd;
-        continue;
-      }
       std::vector<Vec3> normals;
       for (const Spoke& s : spokes_[v]) {
         const Vec3 &p = body_.points[v], in = cross(body_.points[s.previous] - p, body_.points[s.next] - p);
@@ -204,8 +198,7 @@ class LayerGrower {
       const auto [direction, least] = best_seen(normals);
       if (least < kVisible) at.kind = Kind::kEnd;
       const double length = std::min(1 / least, kLongest);
-      at.move = length * direction;
-      at.seen = length * least;
+      at.move = length * direction, at.seen = length * least;
     }
   }
 
@@ -303,12 +296,6 @@ class LayerGrower {
     });
   }
 
-  /// Limits slopes of heights, and ends layers where too little is left.
-  void settle() {
-    while (end_rims() || limit_slopes()) {
-    }
-  }
-
   /// Ends rows beside ends.
   bool end_rims() {
     bool any = false;
@@ -317,6 +304,7 @@ class LayerGrower {
     return any;
   }
 
+  /// Limits slopes of heights, and ends layers where too little is left.
   bool limit_slopes() {
     using Item = std::pair<double, int>;
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;

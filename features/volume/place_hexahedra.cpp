@@ -10,10 +10,7 @@
 #include "base/located.h"
 #include "base/sort_unique.h"
 #include "delquad/hexahedra.h"
-#include "features/volume/frame_field.h"
-#include "features/volume/lattice_points.h"
-#include "features/volume/select_cells.h"
-#include "features/volume/skin.h"
+#include "features/volume/hexahedra_steps.h"
 
 namespace delquad {
 

@@ -31,13 +31,12 @@ Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 /// least Bernstein coefficient. Columns of the Jacobian are linear, so its determinant is cubic.
 double least_jacobian(const Mesh& mesh, const std::array<int, 4>& tet) {
   std::array<std::array<Vec3, 4>, 4> columns;  // by direction and corner
-  for (int k = 0; k < 4; ++k)
-    for (int at = 0; at < 4; ++at) {
-      const Vec3& corner = mesh.points[tet[k]];
-      columns[k][at] = at == k ? 3 * corner : 4 * middle_of_edge(mesh, tet[k], tet[at]) - corner;
-    }
+  const auto slope = [&](int k, int at) {
+    const Vec3& corner = mesh.points[tet[k]];
+    return at == k ? 3 * corner : 4 * middle_of_edge(mesh, tet[k], tet[at]) - corner;
+  };
   for (int k = 1; k < 4; ++k)
-    for (int at = 0; at < 4; ++at) columns[k][at] = columns[k][at] - columns[0][at];
+    for (int at = 0; at < 4; ++at) columns[k][at] = slope(k, at) - slope(0, at);
   const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); };
   std::map<std::array<int, 3>, std::pair<double, int>> sums;  // by sorted corners
   for (int i = 0; i < 4; ++i)

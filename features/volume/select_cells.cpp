@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/select_cells.h"
+#include "features/volume/hexahedra_steps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -336,9 +336,9 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const 
   std::map<Quad, std::vector<int>> by_side;
   for (int i = 0; i < n; ++i)
     for (int s = 0; s < 6; ++s) by_side[side_key(side_of(candidates[i], s))].push_back(i);
-  std::vector<double> worth(n), weight(n);
+  std::vector<double> weight(n);
   for (int i = 0; i < n; ++i) weight[i] = 1 + 0.5 * scaled_jacobian(corners_of(points, candidates[i]));
-  for (int i = 0; i < n; ++i) worth[i] = weight[i];
+  std::vector<double> worth = weight;
   for (const auto& q : quads)
     if (const auto found = by_side.find(side_key(q)); found != by_side.end())
       for (const int i : found->second) worth[i] += 1;

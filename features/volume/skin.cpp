@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/skin.h"
+#include "features/volume/hexahedra_steps.h"
 
 #include <cmath>
 #include <limits>
-
-#include "features/volume/body_parts.h"
 
 namespace delquad {
 namespace {

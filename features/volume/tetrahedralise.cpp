@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "features/volume/tetrahedralise.h"
+#include "features/volume/fill_steps.h"
 
 #define TETLIBRARY
 #include <tetgen.h>
@@ -61,9 +61,9 @@ std::string run_tetgen(const std::vector<Vec3>& points, const std::vector<std::a
 
 }  // namespace
 
-std::optional<Tetrahedra> tetrahedralise(const std::vector<Vec3>& points,
-                                         const std::vector<std::array<int, 3>>& triangles,
-                                         const std::vector<Vec3>& holes) {
+std::optional<Mesh> tetrahedralise(const std::vector<Vec3>& points,
+                                   const std::vector<std::array<int, 3>>& triangles,
+                                   const std::vector<Vec3>& holes) {
   constexpr unsigned kSeconds = 60, kTrianglesPerSecond = 1000;  // a hundred times its usual time
   Mesh given;
   given.points = points, given.triangles = triangles;
@@ -78,18 +78,20 @@ std::optional<Tetrahedra> tetrahedralise(const std::vector<Vec3>& points,
   std::memcpy(&n, bytes->data(), sizeof n);
   const int n_used = static_cast<int>(used.size()), n_given = static_cast<int>(points.size());
   if (n < n_used) return std::nullopt;
-  Tetrahedra result{points, {}};
+  Mesh result;
+  result.points = points;
   result.points.resize(n_given + n - n_used);
   const char* at = bytes->data() + sizeof n + n_used * sizeof(Vec3);
   std::memcpy(result.points.data() + n_given, at, (n - n_used) * sizeof(Vec3));
   at += (n - n_used) * sizeof(Vec3);
-  result.cells.resize((bytes->data() + bytes->size() - at) / sizeof(result.cells[0]));
-  std::memcpy(result.cells.data(), at, result.cells.size() * sizeof(result.cells[0]));
+  result.tetrahedra.resize((bytes->data() + bytes->size() - at) / sizeof(result.tetrahedra[0]));
+  std::memcpy(result.tetrahedra.data(), at, result.tetrahedra.size() * sizeof(result.tetrahedra[0]));
   const auto& p = result.points;
-  for (auto& c : result.cells) {
+  for (auto& c : result.tetrahedra) {
     for (int& v : c) v = v < n_used ? used[v] : v - n_used + n_given;
     if (orient3d(p[c[0]], p[c[1]], p[c[2]], p[c[3]]) < 0) std::swap(c[0], c[1]);
   }
+  result.tet_volume.assign(result.tetrahedra.size(), 0);
   return result;
 }
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "base/box_tree.h"
+#include "delquad/mesh.h"
+#include "features/volume/body_parts.h"
+#include "geometry/mesh/nearest_triangle.h"
+
+// This header has the steps that place hexahedra in a skin, in their order. The filling of volumes uses it.
+
+namespace delquad {
+
+/// A closed surface of quads, counterclockwise seen from outside; each quad is two triangles.
+class Skin {
+ public:
+  /// Throws std::invalid_argument without quads.
+  explicit Skin(const Mesh& body);
+
+  /// The body with the quads, whose points are corners of these.
+  const Mesh& body() const { return body_; }
+
+  /// Returns whether x lies inside: whether a ray from x crosses the skin an odd number of times.
+  bool contains(const Vec3& x) const;
+  /// Returns the distance from x to the skin if it is within `reach`, otherwise infinity.
+  double distance(const Vec3& x, double reach) const { return nearest_.find(x, reach).distance; }
+
+ private:
+  const Mesh& body_;
+  std::vector<std::array<Vec3, 3>> corners_;
+  NearestTriangle nearest_;
+  BoxTree<Vec3> tree_;
+};
+
+/// Three orthogonal directions of unit length, right-handed, and the wanted length of edges along each.
+struct Frame {
+  std::array<Vec3, 3> axes;
+  std::array<double, 3> sizes;
+};
+
+/// The coefficients of a frame's polynomial, then of the tensor of sizes.
+using FrameValues = Eigen::Array<double, 21, 1>;
+
+/// Frames and sizes: at the skin along normals and sides of quads, inside harmonic.
+///
+/// A frame is the polynomial of degree four that is the sum of (a.x)^4 over its axes a, which no permutation
+/// of axes changes. Means of such polynomials are projected to the nearest frame, as crosses are in the
+/// plane. The Laplace problem lives on the Delaunay tetrahedra of the skin's vertices and of points inside.
+/// Sizes are a tensor; across a smooth skin its value comes from inside.
+class FrameField {
+ public:
+  explicit FrameField(const Skin& skin);
+
+  /// Returns the median of the sizes at the skin.
+  double usual_size() const { return usual_size_; }
+  const Frame& at_skin(int vertex) const { return frames_[vertex]; }
+  /// Returns a tetrahedron at a vertex of the skin, for at().
+  int cell_at_skin(int vertex) const { return cell_of_[vertex]; }
+  /// Returns the frame at x, with axes near to the axes of `guess`. `cell` is a tetrahedron near x, and
+  /// becomes the one around x; it becomes -1 outside of all.
+  Frame at(const Vec3& x, const Frame& guess, int& cell) const;
+
+ private:
+  void make_cells();
+  void fix_skin();
+  void diffuse();
+  void set_sizes(Frame& frame, const FrameValues& values) const;
+
+  const Skin& skin_;
+  int n_skin_;
+  double usual_size_ = 0;
+  std::vector<Vec3> points_;
+  std::vector<Quad> cells_, neighbours_;
+  std::vector<int> cell_of_;
+  std::vector<std::vector<std::pair<int, double>>> beside_;  ///< by node, neighbors with weights
+  std::vector<FrameValues> values_;
+  std::vector<Frame> frames_;
+  std::vector<std::array<double, 3>> known_;  ///< by vertex of the skin, sizes along its axes; 0: unknown
+};
+
+/// Points with their neighbors along the directions of frames.
+struct Lattice {
+  std::vector<Vec3> points;  ///< the vertices of the skin first
+  /// By point, ascending, the best neighbors along the directions, and all that may serve. Both lists have
+  /// the sides of quads.
+  std::vector<std::vector<int>> best, beside;
+};
+
+/// Neighbors that points of a lattice want.
+enum class Packing {
+  kCubes,  ///< six, one size along the axes of the frame; the L-infinity norm
+  /// Twelve of equilateral tetrahedra and octahedra, whose squares lie across the third axis, which is the
+  /// normal at the skin; the Euclidean norm.
+  kTetrahedra,
+};
+
+/// Returns a lattice that follows the field inside of the skin.
+///
+/// A front starts at the skin, as the front of squares in the plane [remacle2013]. Each point proposes a
+/// point at one size along each direction of the packing. It is kept if no other is too near in the norm of
+/// its frame. Then points move to where their neighbors want them, crowded points go, and the front fills
+/// gaps again.
+Lattice fill_with_points(const Skin& skin, const FrameField& field, Packing packing);
+
+using Hexahedron = std::array<int, 8>;
+
+/// Returns hexahedra between points whose twelve edges join points that lie `beside` each other. Each is
+/// there once. They meet the skin only in its vertices, edges and quads.
+std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
+                                       const std::vector<std::vector<int>>& beside, const Skin& skin);
+
+/// Returns hexahedra of which two share nothing, a vertex, an edge or a side, and do not overlap. They are
+/// chosen greedily from the skin inwards, then exchanged while their number grows.
+std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const std::vector<Quad>& quads,
+                                         const std::vector<Hexahedron>& candidates);
+
+/// Returns whether each point is a vertex of hexahedra that leave no room around it.
+std::vector<char> enclosed_points(const Mesh& body);
+
+/// Removes hexahedra until the sides that bound the rest of the body do not cross, with either diagonal
+/// (exact).
+void separate_sides(Mesh& body);
+
+}  // namespace delquad
