@@ -6,6 +6,7 @@
 #include <span>
 
 #include "features/volume/body_parts.h"
+#include "geometry/mesh/cell_shapes.h"
 #include "metrics/cells.h"
 
 namespace delquad {
@@ -128,15 +129,12 @@ std::vector<int> CellMesh::ring(int a, int b, bool& is_open) const {
   for (const int c : cells_with({a, b})) {
     const Cell& cell = cells_[c];
     if (cell[4] >= 0) return {};
-    const auto place = [&](int v) { return static_cast<int>(std::ranges::find(cell, v) - cell.begin()); };
-    const int i = place(a), j = place(b);
-    int k = 0;
-    while (k == i || k == j) ++k;
-    int l = 6 - i - j - k;
-    // The order a, b, k, l is even if a tetrahedron stays positive by it.
-    const bool is_odd = ((i > j) + (i > k) + (i > l) + (j > k) + (j > l) + (k > l)) % 2 == 1;
-    if (is_odd) std::swap(k, l);
-    steps.push_back({cell[k], cell[l]});
+    for (const Quad& side : cell_tables::kTetSides) {
+      std::array<int, 3> corners = {cell[side[0]], cell[side[1]], cell[side[2]]};
+      if (std::ranges::find(corners, a) != corners.end()) continue;
+      std::ranges::rotate(corners, std::ranges::find(corners, b));
+      steps.push_back({corners[1], corners[2]});
+    }
   }
   if (steps.empty()) return {};
   std::vector<int> around = {steps[0][0]};

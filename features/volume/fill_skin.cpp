@@ -47,7 +47,6 @@ void check_skin(const Mesh& skin, long long max_elements) {
     refuse("the skin has {} quads, and --max-elements allows {} cells", skin.quads.size(), max_elements);
 }
 
-/// Returns which regions have layers.
 std::vector<char> regions_with(const LayerSpec& layers, const Mesh& skin) {
   std::vector<char> has_layers(skin.regions.size(), layers.on.empty());
   for (const std::string& name : layers.on)
@@ -168,9 +167,8 @@ class SkinFiller {
         tets_alone() ? "" : "'--cells tets', which splits quads, or ");
   }
 
-  /// Names a volume by what all its faces have in common. A name that one body has on
-  /// all faces, and no other face has, is its own. So an inclusion does not get the name of the body around
-  /// it.
+  /// Names a volume by what all its faces have in common. A name that all faces of one body have, and no
+  /// other face has, is its own. So an inclusion does not get the name of the body around it.
   void name_volumes() {
     std::map<std::string, std::size_t> n_faces;
     for (const int region : result_.quad_region)

@@ -62,7 +62,6 @@ std::vector<Quad> inner_tetrahedra(const Mesh& made, const std::vector<Triangle>
 /// A cell below this quality counts as flat. It is far above rounding.
 constexpr double kLeastQuality = 1e-6;
 
-/// Makes pyramids on quads.
 class PyramidMaker {
  public:
   PyramidMaker(CellMesh& mesh, std::vector<Quad> quads) : mesh_(mesh), quads_(std::move(quads)) {

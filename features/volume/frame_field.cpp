@@ -30,29 +30,26 @@ constexpr Exponents kExponents[kTerms] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {3, 1
                                           {2, 0, 2}, {0, 2, 2}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
 constexpr int kMultinomial[kTerms] = {1, 1, 1, 4, 4, 4, 4, 4, 4, 6, 6, 6, 12, 12, 12};
 
-/// Monomials at a place.
-class Monomials {
- public:
-  explicit Monomials(const Vec3& a) {
-    for (int k = 0; k < 3; ++k) {
-      powers_[k][0] = 1;
-      for (int i = 1; i < 5; ++i) powers_[k][i] = powers_[k][i - 1] * coordinate(a, k);
-    }
-  }
-  /// Returns a multiple of one.
-  double times(double factor, const Exponents& e) const {
-    return factor * powers_[0][e[0]] * powers_[1][e[1]] * powers_[2][e[2]];
-  }
+using Powers = std::array<std::array<double, 5>, 3>;
 
- private:
-  std::array<std::array<double, 5>, 3> powers_;
-};
+Powers powers_of(const Vec3& a) {
+  Powers p;
+  for (int k = 0; k < 3; ++k) {
+    p[k][0] = 1;
+    for (int i = 1; i < 5; ++i) p[k][i] = p[k][i - 1] * coordinate(a, k);
+  }
+  return p;
+}
+
+double monomial(double factor, const Powers& x, const Exponents& e) {
+  return factor * x[0][e[0]] * x[1][e[1]] * x[2][e[2]];
+}
 
 Quartic quartic_of(const Axes& axes) {
   Quartic p = Quartic::Zero();
   for (const Vec3& a : axes) {
-    const Monomials x(a);
-    for (int m = 0; m < kTerms; ++m) p[m] += x.times(kMultinomial[m], kExponents[m]);
+    const Powers x = powers_of(a);
+    for (int m = 0; m < kTerms; ++m) p[m] += monomial(kMultinomial[m], x, kExponents[m]);
   }
   return p;
 }
@@ -61,18 +58,18 @@ Quartic quartic_of(const Axes& axes) {
 double value(const Quartic& p, const Axes& axes) {
   double sum = 0;
   for (const Vec3& a : axes) {
-    const Monomials x(a);
-    for (int m = 0; m < kTerms; ++m) sum += x.times(p[m], kExponents[m]);
+    const Powers x = powers_of(a);
+    for (int m = 0; m < kTerms; ++m) sum += monomial(p[m], x, kExponents[m]);
   }
   return sum;
 }
 
 Vec3 gradient(const Quartic& p, const Vec3& at) {
-  const Monomials x(at);
+  const Powers x = powers_of(at);
   std::array<double, 3> g = {};
   for (int m = 0; m < kTerms; ++m)
     for (int k = 0; k < 3; ++k)
-      if (Exponents e = kExponents[m]; e[k]-- > 0) g[k] += x.times(p[m] * (e[k] + 1), e);
+      if (Exponents e = kExponents[m]; e[k]-- > 0) g[k] += monomial(p[m] * (e[k] + 1), x, e);
   return {g[0], g[1], g[2]};
 }
 
@@ -120,7 +117,7 @@ Axes project(const Quartic& p, Axes axes) {
   return axes;
 }
 
-/// Returns the side of a background tetrahedron, in sizes of the skin.
+/// Side of a tetrahedron of the background, in sizes of the skin.
 constexpr double kSpacing = 1.6;
 /// Most points of the background along its grid.
 constexpr double kMostGrid = 3e5;

@@ -113,13 +113,9 @@ using Hexahedron = std::array<int, 8>;
 std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
                                        const std::vector<std::vector<int>>& beside, const Skin& skin);
 
-/// Returns hexahedra of which two share nothing, a vertex, an edge or a side, and do not overlap. They are
-/// chosen greedily from the skin inwards, then exchanged while their number grows.
-std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const std::vector<Quad>& quads,
-                                         const std::vector<Hexahedron>& candidates);
-
-/// Returns whether each point is a vertex of hexahedra that leave no room around it.
-std::vector<char> enclosed_points(const Mesh& body);
+/// Chooses hexahedra for a body. Two of them share nothing, a vertex, an edge or a side, and do not overlap.
+/// The choice runs greedily from the skin inwards, then exchanges while the number grows.
+void select_hexahedra(Mesh& body, const std::vector<Hexahedron>& candidates);
 
 /// Removes hexahedra until the sides that bound the rest of the body do not cross, with either diagonal
 /// (exact).

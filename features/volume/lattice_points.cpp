@@ -51,7 +51,6 @@ class Neighbours {
   /// Returns the most points that may serve along a direction.
   std::size_t most_beside() const { return are_cubes_ ? 3 : 1; }
   int opposite(int direction) const { return (direction + half()) % number(); }
-  /// Returns the way to a neighbor.
   Vec3 step(const Frame& f, int direction) const {
     const Vec3& c = half_[direction % half()];
     const Vec3 v =
@@ -65,7 +64,6 @@ class Neighbours {
     const Vec3 mid = f.axes[k] + g.axes[k];
     return ((direction < 3 ? 0.5 : -0.5) * (f.sizes[k] + g.sizes[k]) / norm(mid)) * mid;
   }
-  /// Returns the direction nearest to v.
   int nearest(const Frame& f, const Vec3& v) const {
     const Vec3 u = in_sizes(are_cubes_ ? Frame{f.axes, {1, 1, 1}} : f, v);
     int best = 0;
@@ -73,7 +71,6 @@ class Neighbours {
       if (std::abs(dot(u, half_[d])) > std::abs(dot(u, half_[best]))) best = d;
     return dot(u, half_[best]) > 0 ? best : best + half();
   }
-  /// Returns the norm of v in sizes.
   double length(const Frame& f, const Vec3& v) const {
     const Vec3 u = in_sizes(f, v);
     return are_cubes_ ? std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)}) : norm(u);

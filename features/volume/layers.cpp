@@ -384,7 +384,6 @@ class LayerGrower {
     return -1;
   }
 
-  /// Adds a hexahedron of a layer, or what is left of it where corners are ends.
   void add_cells(int q, std::size_t level) {
     Quad quad = body_.quads[q];
     std::ranges::reverse(quad);
@@ -408,7 +407,7 @@ class LayerGrower {
       add_around_middle(hex, q);
   }
 
-  /// Adds the half of a folded hexahedron at corners 0, i and j.
+  /// Adds the half of a folded hexahedron at corners 0, i and j, less where these are ends.
   void add_half(const std::array<int, 8>& hex, int i, int j, int q) {
     std::array<int, 3> low = {0, i, j};
     const auto is_end = [&](int k) { return hex[k] == hex[k + 4]; };
@@ -456,7 +455,6 @@ class LayerGrower {
     return quads;
   }
 
-  /// The quads of the body at which fronts cross.
   std::vector<int> quads_of_crossings() const {
     std::vector<int> quads;
     std::vector<Quad> front = front_;

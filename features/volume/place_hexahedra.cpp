@@ -31,15 +31,15 @@ struct Placement {
   std::vector<Hexahedron> between(const std::vector<std::vector<int>>& beside) const {
     return find_hexahedra(placed.points, beside, skin);
   }
-  void choose(const std::vector<Hexahedron>& candidates) {
-    placed.hexahedra = select_hexahedra(placed.points, body.quads, candidates);
-    drop_cells(placed, {});
-  }
 };
 
 /// Chooses hexahedra anew, where they leave room also between neighbors that are not the best.
 void clean_up(Placement& in) {
-  const auto is_enclosed = enclosed_points(in.placed);
+  std::vector<char> is_enclosed(in.placed.points.size(), 0);  // by hexahedra that leave no room
+  for (const Hexahedron& hex : in.placed.hexahedra)
+    for (const int v : hex) is_enclosed[v] = 1;
+  for (const Quad& quad : open_faces(in.placed).quads)
+    for (const int v : quad) is_enclosed[v] = 0;
   auto beside = in.lattice.beside;
   for (std::size_t v = 0; v < beside.size(); ++v)
     if (is_enclosed[v])
@@ -49,7 +49,7 @@ void clean_up(Placement& in) {
   std::vector<Hexahedron> candidates = in.between(beside);
   candidates.insert(candidates.end(), in.placed.hexahedra.begin(), in.placed.hexahedra.end());
   sort_unique(candidates);
-  in.choose(candidates);
+  select_hexahedra(in.placed, candidates);
 }
 
 struct VolumeStage {
@@ -63,7 +63,8 @@ constexpr VolumeStage kStages[] = {
     {'F', "points of equilateral tetrahedra", kPointsStep,
      [](Placement& in) { in.add_points(Packing::kTetrahedra); }},
     {'D', "points of cubes", kPointsStep, [](Placement& in) { in.add_points(Packing::kCubes); }},
-    {'B', "recombination", kHexahedraStep, [](Placement& in) { in.choose(in.between(in.lattice.best)); }},
+    {'B', "recombination", kHexahedraStep,
+     [](Placement& in) { select_hexahedra(in.placed, in.between(in.lattice.best)); }},
     {'C', "clean-up", 2, clean_up},
     {'O', "optimization of the cells around hexahedra", 3, [](Placement&) {}}};
 

@@ -21,7 +21,6 @@ std::array<Quad, 3> quads_of(const Prism& p) {
   return {{{p[0], p[1], p[4], p[3]}, {p[1], p[2], p[5], p[4]}, {p[2], p[0], p[3], p[5]}}};
 }
 
-/// The prisms that three quads enclose.
 std::vector<Prism> find_prisms(const std::map<Quad, Quad>& open) {
   std::map<std::array<int, 2>, std::vector<Quad>> at;  // by directed first side
   for (const auto& [key, quad] : open)

@@ -244,6 +244,30 @@ bool fits_skin(const Hexahedron& hex, const std::vector<Vec3>& points, const Ski
   return true;
 }
 
+/// Returns the candidates that each one excludes, ascending.
+std::vector<std::vector<int>> rivals_of(const std::vector<Vec3>& points,
+                                        const std::vector<Hexahedron>& candidates) {
+  std::vector<Placed> all;
+  std::vector<Box<Vec3>> boxes;
+  for (const Hexahedron& hex : candidates) {
+    all.push_back(placed(points, hex));
+    boxes.push_back(Box<Vec3>::around(std::span(all.back().x)).grown(kLeastGap * all.back().edge));
+  }
+  const BoxTree<Vec3> tree(boxes);
+  std::vector<std::vector<int>> rivals(candidates.size());
+  parallel_each(all.size(), [&](std::size_t i) {
+    tree.overlapping(boxes[i], [&](int j) {
+      if (static_cast<int>(i) < j && boxes[i].overlaps(boxes[j]) && !are_compatible(all[i], all[j]))
+        rivals[i].push_back(j);
+    });
+  });
+  for (int i = 0; i < static_cast<int>(rivals.size()); ++i)
+    for (const int j : std::vector(rivals[i]))
+      if (j > i) rivals[j].push_back(i);
+  for (auto& list : rivals) sort_unique(list);
+  return rivals;
+}
+
 }  // namespace
 
 std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
@@ -301,45 +325,17 @@ std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
   return all;
 }
 
-std::vector<char> enclosed_points(const Mesh& body) {
-  std::vector<char> is_enclosed(body.points.size(), 0);
-  for (const Hexahedron& hex : body.hexahedra)
-    for (const int v : hex) is_enclosed[v] = 1;
-  for (const Quad& quad : open_faces(body).quads)
-    for (const int v : quad) is_enclosed[v] = 0;
-  return is_enclosed;
-}
-
-std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const std::vector<Quad>& quads,
-                                         const std::vector<Hexahedron>& candidates) {
+void select_hexahedra(Mesh& body, const std::vector<Hexahedron>& candidates) {
   const int n = static_cast<int>(candidates.size());
-  std::vector<Placed> all;
-  std::vector<Box<Vec3>> boxes;
-  for (const Hexahedron& hex : candidates) {
-    all.push_back(placed(points, hex));
-    boxes.push_back(Box<Vec3>::around(std::span(all.back().x)).grown(kLeastGap * all.back().edge));
-  }
-  const BoxTree<Vec3> tree(boxes);
-  std::vector<std::vector<int>> rivals(n);
-  parallel_each(all.size(), [&](std::size_t i) {
-    tree.overlapping(boxes[i], [&](int j) {
-      if (static_cast<int>(i) < j && boxes[i].overlaps(boxes[j]) && !are_compatible(all[i], all[j]))
-        rivals[i].push_back(j);
-    });
-  });
-  for (int i = 0; i < n; ++i)
-    for (const int j : std::vector(rivals[i]))
-      if (j > i) rivals[j].push_back(i);
-  for (auto& list : rivals) sort_unique(list);
-
+  const std::vector<std::vector<int>> rivals = rivals_of(body.points, candidates);
   // Sides by vertices; a chosen side makes the candidates on its other side better.
   std::map<Quad, std::vector<int>> by_side;
   for (int i = 0; i < n; ++i)
     for (int s = 0; s < 6; ++s) by_side[side_key(side_of(candidates[i], s))].push_back(i);
   std::vector<double> weight(n);
-  for (int i = 0; i < n; ++i) weight[i] = 1 + 0.5 * scaled_jacobian(corners_of(points, candidates[i]));
+  for (int i = 0; i < n; ++i) weight[i] = 1 + 0.5 * scaled_jacobian(corners_of(body.points, candidates[i]));
   std::vector<double> worth = weight;
-  for (const auto& q : quads)
+  for (const Quad& q : body.quads)
     if (const auto found = by_side.find(side_key(q)); found != by_side.end())
       for (const int i : found->second) worth[i] += 1;
   std::vector<char> is_chosen(n, 0);
@@ -382,10 +378,10 @@ std::vector<Hexahedron> select_hexahedra(const std::vector<Vec3>& points, const 
     for (int i = 0; i < n; ++i)
       if (is_open(i)) choose(i, true), changed = true;
   }
-  std::vector<Hexahedron> chosen;
+  body.hexahedra.clear();
   for (int i = 0; i < n; ++i)
-    if (is_chosen[i]) chosen.push_back(candidates[i]);
-  return chosen;
+    if (is_chosen[i]) body.hexahedra.push_back(candidates[i]);
+  drop_cells(body, {});
 }
 
 void separate_sides(Mesh& body) {
