@@ -254,10 +254,13 @@ void check_triangles(const std::filesystem::path& source, const std::filesystem:
 
 void add_msh_file(CLI::App& command, MshOptions& msh) {
   command.add_flag("--binary", msh.binary, "write .msh as bytes");
-  static const std::map<std::string, bool> versions = {{"2.2", true}, {"4.1", false}};
-  command.add_option("--msh-version", msh.is_msh22, "of .msh: 4.1 or 2.2")
-      ->default_str("4.1")
-      ->transform(CLI::CheckedTransformer(versions).description("4.1 or 2.2"));
+  command.add_option_function<std::string>(
+      "--msh-version",
+      [&is_msh22 = msh.is_msh22](const std::string& version) {
+        is_msh22 = version == "2.2";
+        if (!is_msh22 && version != "4.1") refuse("--msh-version {}: expected 4.1 or 2.2", version);
+      },
+      "of .msh: 4.1 (the default) or 2.2");
 }
 
 void add_msh(CLI::App& command, MshOptions& msh) {

@@ -37,8 +37,8 @@ std::optional<LayerSpec> read_layers(const VolumeArguments& arguments) {
     return {};
   }
   const auto numbers = read_list("--layers", arguments.layers, 3, "0.1,1.2,5: first height, growth, number");
-  if (const double number = numbers[2]; !(std::abs(number) < 1e9) || number != std::floor(number))
-    refuse("--layers: {} layers: expected a whole number", number);
+  if (const double number = numbers[2]; !(number >= 1 && number < 1e9) || number != std::floor(number))
+    refuse("--layers: {} layers: expected a whole number from 1", number);
   return LayerSpec{.on = arguments.layers_on,
                    .first = numbers[0],
                    .growth = numbers[1],
@@ -80,15 +80,16 @@ Mesh mesh_skin(const VolumeArguments& arguments, const std::optional<LayerSpec>&
 /// Cells below this scaled Jacobian slow solvers down, or stop them.
 constexpr double kPoorJacobian = 0.02;
 
-void warn_of_poor_cells(const Mesh& cells, const CellMeasures& measures, Progress& progress) {
+void warn_of_poor_cells(const Mesh& cells, const CellMeasures& measures, bool has_layers,
+                        Progress& progress) {
   const auto n = std::ranges::count_if(measures.jacobian, [](double j) { return j < kPoorJacobian; });
   if (n == 0) return;
   const std::size_t worst = std::ranges::min_element(measures.jacobian) - measures.jacobian.begin();
-  progress.message(
-      fmt::format("warning: the scaled Jacobian is below {} in {}, the least {:.2g} at {}: the quads there "
-                  "are flat or long: try another size",
-                  kPoorJacobian, counted(n, "cell"), measures.jacobian[worst],
-                  show_point(cells.points[solid_at(cells, worst).nodes[0]])));
+  progress.message(fmt::format(
+      "warning: the scaled Jacobian is below {} in {}, the least {:.2g} at {}: the quads there "
+      "are flat or long: try another size{}",
+      kPoorJacobian, counted(n, "cell"), measures.jacobian[worst],
+      show_point(cells.points[solid_at(cells, worst).nodes[0]]), has_layers ? ", or lower layers" : ""));
 }
 
 int volume_command(const VolumeArguments& arguments) {
@@ -116,12 +117,15 @@ int volume_command(const VolumeArguments& arguments) {
                                            : read_mesh(arguments.from, &notes);
   if (skin.order == 2 && !has_curved_cells(arguments))
     refuse("{}: the skin has order 2: expected --cells tets --element C3D10, or quads of order 1", name);
+  if (has_curved_cells(arguments))
+    notes.push_back(skin.order == 2 ? "volumes and Jacobians count straight cells"
+                                    : "the skin has order 1: middle nodes lie on straight edges");
   const Mesh cells = located(name, [&] { return fill_skin(skin, options, &notes); });
   for (const std::string& lost : renamed_in_file(arguments.output, cells))
     notes.push_back(arguments.output.string() + " cannot hold all names as they are: " + lost);
   for (const std::string& note : notes) progress.message("note: " + note);
   const CellMeasures measures = measure(cells);
-  warn_of_poor_cells(cells, measures, progress);
+  warn_of_poor_cells(cells, measures, options.layers.has_value(), progress);
   write_mesh(arguments.output, cells, arguments.msh);
   if (!arguments.json.empty()) write_text_file(arguments.json, cells_record(name, cells, measures));
   progress.finish();

@@ -40,7 +40,7 @@ Quad by_better_diagonal(const Mesh& mesh, Quad q) {
 void check_skin(const Mesh& skin, long long max_elements) {
   require_straight(skin, "skin");
   if (!skin.triangles.empty())
-    refuse("the skin has {} triangles, one at {}: a volume needs quads alone [odd-boundary]",
+    refuse("the skin has {} triangles, one at {}: expected quads alone; a model of triangles gets new quads",
            skin.triangles.size(), show_point(skin.points[skin.triangles[0][0]]));
   if (skin.quads.empty()) throw InputError("the skin has no quads: expected a closed skin of quads");
   if (static_cast<long long>(skin.quads.size()) > max_elements)

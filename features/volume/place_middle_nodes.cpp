@@ -87,8 +87,7 @@ void place_middle_nodes(Mesh& cells, const Mesh& skin, const std::vector<int>& n
   if (moved.empty() || notes == nullptr) return;
   const Edge& first = moved.begin()->first;
   notes->push_back(
-      fmt::format("tetrahedra would fold with {} on the model, the first at {}: it lies nearer to a straight "
-                  "edge; smaller sizes help",
+      fmt::format("off the model: {}, the first at {}: tetrahedra would fold there; smaller sizes help",
                   counted(static_cast<long long>(moved.size()), "middle node"),
                   show_point(middle_of_edge(cells, first[0], first[1]))));
 }

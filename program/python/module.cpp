@@ -136,15 +136,17 @@ py::object rows_beside(const Mesh& skin, const std::tuple<double, double, int>& 
                   arg("growth") = beside.growth, arg("number") = beside.number, arg("fan") = beside.fan);
 }
 
-Mesh filled(const Mesh& skin, const std::string& cells, const std::string& strategy, long long max_elements,
-            int threads, double time_limit, const std::optional<std::tuple<double, double, int>>& layers,
-            const std::vector<std::string>& layers_on) {
+/// Returns the mesh and the notes on it.
+std::pair<Mesh, ReadNotes> filled(const Mesh& skin, const std::string& cells, const std::string& strategy,
+                                  long long max_elements, int threads, double time_limit,
+                                  const std::optional<std::tuple<double, double, int>>& layers,
+                                  const std::vector<std::string>& layers_on) {
   VolumeOptions options{volume_cells(cells), max_elements, strategy};
   if (layers) options.layers = volume_layers(*layers, layers_on);
-  Mesh result;
+  std::pair<Mesh, ReadNotes> result;
   CallingThread().run([&](const std::stop_token& stop) {
     const RunScope scope({.threads = threads, .cancel = stop, .seconds = time_limit});
-    result = fill_skin(skin, options);
+    result.first = fill_skin(skin, options, &result.second);
   });
   return result;
 }

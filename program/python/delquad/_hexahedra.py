@@ -2,6 +2,7 @@
 """extrude() and volume()."""
 
 import os
+import warnings
 
 from . import _core
 from ._mesh import mesh as _mesh
@@ -40,6 +41,7 @@ def volume(model, size=None, *, cells="hex-dominant", strategy="DBCO", layers=No
 
     model: as for mesh(), which makes the skin with size and settings; or a Mesh of closed quads, which stay as they are.
     cells: "hex-dominant" and "pyramids-and-tets" keep the quads, "tets" splits each into two triangles.
+        With order=2, "tets" have middle nodes on the model, which write(element="C3D10") needs.
     strategy: stages of "hex-dominant", by letter. F or D place points, of equilateral tetrahedra or of cubes. B recombines
         them, C cleans up, O optimizes the other cells. C and O may be absent.
     layers: (first height, growth, number) of hexahedra on the faces named in layers_on, or on all. They end on rows of quads
@@ -47,9 +49,12 @@ def volume(model, size=None, *, cells="hex-dominant", strategy="DBCO", layers=No
     max_elements: of the skin, and of cells. threads: 0 for the number of cores.
     time_limit: in seconds, of the skin and of the cells; 0 for none.
 
-    Bodies become volumes, and regions of the skin faces. Raises InputError, with the place, if quads are open or cross
+    Warns of places where layers are lower or end. Bodies become volumes, and regions of the skin faces. Raises InputError, with the place, if quads are open or cross
     each other, or a body cannot be filled.
     """
+    layers_on = [layers_on] if isinstance(layers_on, str) else list(layers_on)
+    if layers is not None and not (len(layers) == 3 and layers[2] == int(layers[2])):
+        raise _core.InputError(f"layers: {layers}: expected first height, growth and a whole number")
     if layers_on and layers is None:
         raise _core.InputError("layers_on goes with layers only")
     if isinstance(model, _core.Mesh):
@@ -64,4 +69,7 @@ def volume(model, size=None, *, cells="hex-dominant", strategy="DBCO", layers=No
             except _core.InputError:  # layers end by prisms
                 pass
         model = skin
-    return _core.fill_skin(model, cells, strategy, max_elements, threads, time_limit, layers, layers_on)
+    mesh, notes = _core.fill_skin(model, cells, strategy, max_elements, threads, time_limit, layers, layers_on)
+    for note in notes:
+        warnings.warn(note, stacklevel=2)
+    return mesh
