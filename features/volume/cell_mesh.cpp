@@ -14,7 +14,7 @@ namespace delquad {
 namespace {
 
 /// Hexahedra and prisms above this scaled Jacobian count as good.
-constexpr double kGoodBlock = 0.3;
+constexpr double kGoodBlock = 0.2;
 
 double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(cross(a, b), c); }
 

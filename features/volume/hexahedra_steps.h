@@ -114,7 +114,7 @@ std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
                                        const std::vector<std::vector<int>>& beside, const Skin& skin);
 
 /// Chooses hexahedra for a body. Two of them share nothing, a vertex, an edge or a side, and do not overlap.
-/// The choice runs greedily from the skin inwards, then exchanges while the number grows.
+/// The choice runs greedily by volume, then exchanges while the volume and the number of shared sides grow.
 void select_hexahedra(Mesh& body, const std::vector<Hexahedron>& candidates);
 
 /// Removes hexahedra until the sides that bound the rest of the body do not cross, with either diagonal

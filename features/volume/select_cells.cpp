@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <queue>
+#include <utility>
 
 #include "base/box_tree.h"
 #include "base/parallel_each.h"
@@ -18,10 +20,12 @@ namespace delquad {
 namespace {
 
 /// Least scaled Jacobian of a hexahedron.
-constexpr double kLeastJacobian = 0.35;
-constexpr int kExchangeRounds = 10;
+constexpr double kLeastJacobian = 0.3;
+constexpr int kExchangeRounds = 4;
+/// Worth of a side that two hexahedra share, in the sum of their volumes. On the skin it counts twice.
+constexpr double kSideWorth = 0.05;
 /// Most hexahedra with the same first vertex, the best ones.
-constexpr std::size_t kMostAtVertex = 8;
+constexpr std::size_t kMostAtVertex = 16;
 /// Centers nearer than this, in the shorter mean edge, mean an overlap.
 constexpr double kTooNear = 0.5;
 /// Least angle between hexahedra that share an edge, but no side.
@@ -193,7 +197,7 @@ class SkinParts {
 };
 
 /// Least distance from the skin of the middle of sides and edges inside that end there, in mean edges.
-constexpr double kOffSkin = 0.15;
+constexpr double kOffSkin = 0.1;
 
 /// Returns whether a hexahedron meets the skin only in its vertices, sides and quads.
 bool fits_skin(const Hexahedron& hex, const std::vector<Vec3>& points, const SkinParts& parts,
@@ -268,6 +272,85 @@ std::vector<std::vector<int>> rivals_of(const std::vector<Vec3>& points,
   return rivals;
 }
 
+/// Chooses candidates of which no two are rivals, of great worth together. Two chosen mates add the worth of
+/// the side of each.
+class Choice {
+ public:
+  Choice(std::vector<std::vector<int>> rivals, std::vector<std::vector<int>> mates,
+         std::vector<double> side_worth, std::vector<double> worth)
+      : rivals_(std::move(rivals)),
+        mates_(std::move(mates)),
+        side_worth_(std::move(side_worth)),
+        worth_(std::move(worth)),
+        against_(worth_.size(), 0),
+        is_chosen_(worth_.size(), 0) {
+    std::vector<int> all(worth_.size());
+    std::iota(all.begin(), all.end(), 0);
+    add_best(all);
+    std::vector<char> waits(worth_.size(), 1);
+    for (int round = 0; round < kExchangeRounds; ++round)
+      for (const int i : all) {
+        if (std::exchange(waits[i], 0) == 0 || has(i) || !exchange(i)) continue;
+        for (const int j : toggled_)
+          for (const int k : rivals_[j]) waits[k] = 1;
+      }
+  }
+
+  bool has(int i) const { return is_chosen_[i]; }
+
+ private:
+  double gain(int i) const {
+    double sum = worth_[i];
+    for (const int j : mates_[i])
+      if (has(j)) sum += side_worth_[i] + side_worth_[j];
+    return sum;
+  }
+  void toggle(int i) {
+    is_chosen_[i] ^= 1;
+    total_ += has(i) ? gain(i) : -gain(i);
+    for (const int j : rivals_[i]) against_[j] += has(i) ? 1 : -1;
+    toggled_.push_back(i);
+  }
+  /// Adds candidates without chosen rivals, best first.
+  void add_best(const std::vector<int>& from) {
+    std::priority_queue<std::pair<double, int>> queue;
+    for (const int i : from) queue.push({gain(i), -i});
+    while (!queue.empty()) {
+      const auto [value, minus] = queue.top();
+      queue.pop();
+      if (has(-minus) || against_[-minus] > 0 || value != gain(-minus)) continue;
+      toggle(-minus);
+      for (const int j : mates_[-minus])
+        if (!has(j) && against_[j] == 0) queue.push({gain(j), -j});
+    }
+  }
+  /// Takes a candidate in place of its rivals, and others where these leave room, if that is worth more.
+  bool exchange(int i) {
+    const double before = total_;
+    toggled_.clear();
+    for (const int j : rivals_[i])
+      if (has(j)) toggle(j);
+    std::vector<int> free;
+    const std::vector<int> out = toggled_;
+    toggle(i);
+    for (const int j : out)
+      for (const int k : rivals_[j])
+        if (against_[k] == 0 && !has(k)) free.push_back(k);
+    add_best(free);
+    if (total_ > before * (1 + 1e-9)) return true;
+    for (std::size_t left = toggled_.size(); left > 0; --left) toggle(toggled_[left - 1]);
+    total_ = before;
+    return false;
+  }
+
+  std::vector<std::vector<int>> rivals_, mates_;
+  std::vector<double> side_worth_, worth_;
+  std::vector<int> against_;  ///< number of chosen rivals
+  std::vector<char> is_chosen_;
+  std::vector<int> toggled_;  ///< since the exchange began
+  double total_ = 0;
+};
+
 }  // namespace
 
 std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
@@ -327,60 +410,28 @@ std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
 
 void select_hexahedra(Mesh& body, const std::vector<Hexahedron>& candidates) {
   const int n = static_cast<int>(candidates.size());
-  const std::vector<std::vector<int>> rivals = rivals_of(body.points, candidates);
-  // Sides by vertices; a chosen side makes the candidates on its other side better.
+  std::vector<std::vector<int>> rivals = rivals_of(body.points, candidates), mates(n);
   std::map<Quad, std::vector<int>> by_side;
   for (int i = 0; i < n; ++i)
     for (int s = 0; s < 6; ++s) by_side[side_key(side_of(candidates[i], s))].push_back(i);
-  std::vector<double> weight(n);
-  for (int i = 0; i < n; ++i) weight[i] = 1 + 0.5 * scaled_jacobian(corners_of(body.points, candidates[i]));
-  std::vector<double> worth = weight;
+  for (const auto& [side, at] : by_side)
+    for (const int i : at)
+      for (const int j : at)
+        if (i != j && !std::ranges::binary_search(rivals[i], j)) mates[i].push_back(j);
+  std::vector<double> side_worth, worth;
+  for (const Hexahedron& hex : candidates) {
+    const auto corners = corners_of(body.points, hex);
+    const double volume = signed_volume(corners);
+    side_worth.push_back(kSideWorth * volume);
+    worth.push_back(volume * (1 + 0.5 * scaled_jacobian(corners)));
+  }
   for (const Quad& q : body.quads)
     if (const auto found = by_side.find(side_key(q)); found != by_side.end())
-      for (const int i : found->second) worth[i] += 1;
-  std::vector<char> is_chosen(n, 0);
-  std::vector<int> against(n, 0);  // chosen rivals
-  const auto choose = [&](int i, bool in) {
-    is_chosen[i] = in;
-    for (const int j : rivals[i]) against[j] += in ? 1 : -1;
-  };
-  const auto is_open = [&](int i) { return !is_chosen[i] && against[i] == 0; };
-  std::priority_queue<std::pair<double, int>> queue;
-  for (int i = 0; i < n; ++i) queue.push({worth[i], -i});
-  while (!queue.empty()) {
-    const auto [value, minus] = queue.top();
-    queue.pop();
-    const int i = -minus;
-    if (!is_open(i) || value != worth[i]) continue;
-    choose(i, true);
-    for (int s = 0; s < 6; ++s)
-      for (const int j : by_side[side_key(side_of(candidates[i], s))])
-        if (is_open(j)) worth[j] += 1, queue.push({worth[j], -j});
-  }
-
-  // One out, others in: exchanges while the weight grows.
-  bool changed = true;
-  for (int round = 0; changed && round < kExchangeRounds; ++round) {
-    changed = false;
-    for (int i = 0; i < n; ++i) {
-      if (!is_chosen[i]) continue;
-      std::vector<int> in;
-      double sum = 0;
-      for (const int j : rivals[i])
-        if (against[j] == 1 &&
-            std::ranges::none_of(in, [&](int k) { return std::ranges::binary_search(rivals[j], k); }))
-          in.push_back(j), sum += weight[j];
-      if (sum <= weight[i] + 1e-9) continue;
-      choose(i, false);
-      for (const int j : in) choose(j, true);
-      changed = true;
-    }
-    for (int i = 0; i < n; ++i)
-      if (is_open(i)) choose(i, true), changed = true;
-  }
+      for (const int i : found->second) worth[i] += 2 * side_worth[i];
+  const Choice choice(std::move(rivals), std::move(mates), std::move(side_worth), std::move(worth));
   body.hexahedra.clear();
   for (int i = 0; i < n; ++i)
-    if (is_chosen[i]) body.hexahedra.push_back(candidates[i]);
+    if (choice.has(i)) body.hexahedra.push_back(candidates[i]);
   drop_cells(body, {});
 }
 
