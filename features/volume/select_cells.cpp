@@ -25,7 +25,7 @@ constexpr int kExchangeRounds = 4;
 /// Worth of a side that two hexahedra share, in the sum of their volumes. On the skin it counts twice.
 constexpr double kSideWorth = 0.05;
 /// Most hexahedra with the same first vertex, the best ones.
-constexpr std::size_t kMostAtVertex = 16;
+constexpr std::size_t kMostAtVertex = 12;
 /// Centers nearer than this, in the shorter mean edge, mean an overlap.
 constexpr double kTooNear = 0.5;
 /// Least angle between hexahedra that share an edge, but no side.
