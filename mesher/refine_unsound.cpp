@@ -62,7 +62,8 @@ std::vector<Vec3> places_of_masters(const MeshingSetup& prepared, const std::vec
   return found;
 }
 
-/// Adds a ball around each unsound place, except places inside of another new ball.
+/// Adds a ball around each unsound place, except places inside of another new ball. The old balls tell
+/// the size of places far from a surface, too, where the field does not know it.
 void add_spots(const MeshingSetup& prepared, const Soundness& soundness, std::vector<SizeBall>& spots) {
   const std::size_t first_new = spots.size();
   int hint = -1;
@@ -71,7 +72,10 @@ void add_spots(const MeshingSetup& prepared, const Soundness& soundness, std::ve
     const bool is_known = std::any_of(spots.begin() + static_cast<std::ptrdiff_t>(first_new), spots.end(),
                                       [&](const SizeBall& s) { return norm(s.at - at) < s.size; });
     if (is_known || spots.size() == kMostSpots) return;
-    const double size = kPart * prepared.size.field->at(at, hint);
+    double size = prepared.size.field->at(at, hint);
+    for (std::size_t i = 0; i < first_new; ++i)
+      if (norm(spots[i].at - at) < spots[i].reach) size = std::min(size, spots[i].size);
+    size *= kPart;
     if (prepared.surface && prepared.surface->mirrored) {
       // Adds all images, so that details kept for a part are kept for the whole.
       const SymmetryPlanes& planes = prepared.surface->mirrored->planes;

@@ -42,6 +42,15 @@ TEST(RefineUnsound, StaysAwayFromTheRest) {
   EXPECT_GT(longest, 0.3);
 }
 
+TEST(RefineUnsound, FindsTheSizeFarFromTheSurface) {
+  // Quads across a bore have their middle near its axis, where the field gives the size of the problem.
+  MeshProblem problem = problem_of(ExampleModel{"cross_drilled"}, 30);
+  problem.order = 2;
+  const MeshResult result = mesh(problem, "DBQO");
+  EXPECT_GT(result.log.summaries.number("refine_unsound", "rounds"), 1);
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+}
+
 TEST(RefineUnsound, LeavesSoundMeshesAlone) {
   const MeshResult result = mesh(ridge(0.05), "DB");
   EXPECT_FALSE(result.log.summaries.has("refine_unsound"));
