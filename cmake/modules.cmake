@@ -97,11 +97,9 @@ delquad_module(metrics/solve LINKS base geometry/mesh metrics PRIVATE Eigen3::Ei
 delquad_module(algorithms/insertion LINKS base geometry/mesh algorithms/fields PRIVATE CGAL::CGAL)
 delquad_module(algorithms/recombination LINKS base base/matching geometry/mesh)
 delquad_module(algorithms/treatment LINKS base base/matching geometry/mesh algorithms/fields smoothing/relocation algorithms/recombination)
-delquad_module(algorithms/cleanup LINKS base geometry/mesh algorithms/fields smoothing/relocation algorithms/treatment)
-delquad_module(algorithms/regularity LINKS base geometry/mesh algorithms/fields smoothing/relocation algorithms/treatment
-               algorithms/cleanup)
+delquad_module(algorithms/regularity LINKS base geometry/mesh algorithms/fields smoothing/relocation algorithms/treatment)
 delquad_module(algorithms/layout LINKS base base/matching geometry/mesh algorithms/fields smoothing/relocation smoothing/optimisation
-               algorithms/insertion algorithms/recombination algorithms/treatment algorithms/cleanup algorithms/regularity)
+               algorithms/insertion algorithms/recombination algorithms/treatment algorithms/regularity)
 delquad_module(algorithms/finish LINKS base geometry/mesh geometry/patches algorithms/treatment smoothing/relocation smoothing/surface
                metrics
                metrics/surface)
@@ -147,7 +145,7 @@ delquad_module(features/metric LINKS base geometry/mesh geometry/planar geometry
 delquad_module(mesher COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields geometry/patches
                smoothing/cvt
                smoothing/optimisation smoothing/surface metrics metrics/surface algorithms/insertion algorithms/treatment
-               algorithms/recombination algorithms/cleanup algorithms/regularity algorithms/layout algorithms/finish io/cases
+               algorithms/recombination algorithms/regularity algorithms/layout algorithms/finish io/cases
                features/seed features/sizes features/crosses features/divisions features/embedded features/symmetry features/periodic
                features/grids features/washers features/layers features/scaling features/thin features/given features/curved
                features/curves features/metric features/naming features/midsurface metrics/judgement)

@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "algorithms/cleanup/cleanup.h"
+#include "algorithms/regularity/regularity.h"
 #include "delquad/error.h"
 #include "features/given/given_worst.h"
 #include "geometry/mesh/keep_elements.h"
@@ -136,7 +136,7 @@ Stages moving_stages(const Stages& stages) {
 bool should_take(const MeshingSetup& prepared, const MeshResult& after, const MeshResult& before) {
   if (!after.soundness.sound() || !before.soundness.sound()) return after.soundness.sound();
   if (prepared.surface->given) return is_better(prepared, after, before);
-  return is_more_regular(prepared, after, before) && keeps_worst_eta(kCleanupFloorEta, after, before);
+  return is_more_regular(prepared, after, before) && keeps_worst_eta(kFloorEta, after, before);
 }
 
 /// Returns the options for cavities in the second run.

@@ -234,11 +234,9 @@ MeshResult mesh(MeshProblem problem, const std::string& text, const Context& con
 }
 
 const std::vector<Quality>& quality_registry() {
-  // Annealing for longer leaves as many irregular vertices once there is Q.
   const auto best = Options()
                         .set("curves.round_holes", true)
                         .set("recombination.settled", 0.05)
-                        .set("cleanup.rounds", 10)
                         .set("regularity.usual_quads", 4000LL);
   static const std::vector<Quality> registry = {
       {"fast", "DB", CrossKind::kBoundary},

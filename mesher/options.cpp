@@ -9,7 +9,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/regularity/regularity.h"
 #include "algorithms/treatment/treatment.h"
@@ -25,9 +24,9 @@ namespace delquad {
 namespace {
 
 std::deque<OptionGroup>& groups() {
-  static std::deque<OptionGroup> all = {curve_group(),         insertion_group(), smoothing_group(),
-                                        recombination_group(), cleanup_group(),   regularity_group(),
-                                        optimisation_group(),  repair_group(),    limit_group()};
+  static std::deque<OptionGroup> all = {curve_group(),         insertion_group(),  smoothing_group(),
+                                        recombination_group(), regularity_group(), optimisation_group(),
+                                        repair_group(),        limit_group()};
   return all;
 }
 

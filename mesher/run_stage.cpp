@@ -153,10 +153,9 @@ void count_grids(const MeshingSetup& prepared, StageLog& log) {
 /// Adds the log of each patch, and warns of steps that were stopped.
 void add_logs(const MeshingSetup& prepared, const std::vector<StageLog>& logs, PipelineState& state) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    for (const char* step : {"treatment", "cleanup"})
-      if (logs[i].summaries.has(step) && logs[i].summaries.number(step, "stopped") > 0)
-        state.warnings.push_back(
-            stopped_early(prepared, step, prepared.boundary.regions[prepared.patches[i].region].tag));
+    if (logs[i].summaries.has("treatment") && logs[i].summaries.number("treatment", "stopped") > 0)
+      state.warnings.push_back(
+          stopped_early(prepared, "treatment", prepared.boundary.regions[prepared.patches[i].region].tag));
     state.log.add(logs[i]);
   }
 }

@@ -8,7 +8,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/insertion/linf_adaptation.h"
 #include "algorithms/layout/layout.h"
@@ -145,31 +144,30 @@ void adapt_and_merge(const StageInput& in, PatchMesh& patch, StageLog& log) {
   merge_greedily(patch, log, {kGoodPair, true, 0});
 }
 
-/// Applies `work`, clean_up() or make_regular(), to a patch, unless the result closes too tightly.
-template <class Summary, class Options>
-void reduce_irregular(QuadPatch (*work)(const QuadPatch&, const ParametricSize&, const Options&, Summary*),
-                      const Options& options, const char* step, const StageInput& in, PatchMesh& patch,
-                      StageLog& log) {
-  bool discarded = false;
-  log_step<Summary>(log, step, [&](Summary& summary) {
-    QuadPatch result = work(patch.quads, in.size, options, &summary);
-    discarded = has_duplicate_quads(result, in.boundary.point_node);
-    if (!discarded) patch.quads = std::move(result);
-    // Discarded work changed nothing, but took its time.
-    if (discarded)
-      summary = {.irregular_before = summary.irregular_before,
-                 .irregular_after = summary.irregular_before,
-                 .seconds = summary.seconds};
-  });
+/// Fills cavities of a patch, unless the result closes too tightly. `key` names the stage in records.
+void fill_cavities(const RegularityOptions& options, const char* key, const char* step, const StageInput& in,
+                   PatchMesh& patch, StageLog& log) {
+  const Stopwatch watch;
+  RegularitySummary summary;
+  QuadPatch result = make_regular(patch.quads, in.size, options, &summary);
+  const bool discarded = has_duplicate_quads(result, in.boundary.point_node);
+  if (!discarded) patch.quads = std::move(result);
+  // Discarded work changed nothing, but took its time.
+  if (discarded)
+    summary = {.irregular_before = summary.irregular_before,
+               .irregular_after = summary.irregular_before,
+               .seconds = summary.seconds};
+  log.summaries.add(key, fields_of(summary));
+  log.add_time(step, watch.time());
   note_discarded(false, discarded, log);
 }
 
 void clean_up_quads(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  reduce_irregular(clean_up, cleanup_options(in.options), "clean-up", in, patch, log);
+  fill_cavities(without_price(regularity_options(in.options)), "cleanup", "clean-up", in, patch, log);
 }
 
-void fill_cavities(const StageInput& in, PatchMesh& patch, StageLog& log) {
-  reduce_irregular(make_regular, regularity_options(in.options), "regularity", in, patch, log);
+void make_quads_regular(const StageInput& in, PatchMesh& patch, StageLog& log) {
+  fill_cavities(regularity_options(in.options), "regularity", "regularity", in, patch, log);
 }
 
 void lay_out_where_better(const StageInput& in, PatchMesh& patch, StageLog& log) {
@@ -344,7 +342,7 @@ std::deque<Stage>& stages() {
       // On surfaces run_joint_layouts() follows.
       {'R', "layouts", PatchForm::kQuads, PatchForm::kQuads, lay_out_where_better, {}, false, true},
       {'C', "topological clean-up", PatchForm::kQuads, PatchForm::kQuads, clean_up_quads},
-      {'Q', "regularity", PatchForm::kQuads, PatchForm::kQuads, fill_cavities, {}, false, true},
+      {'Q', "regularity", PatchForm::kQuads, PatchForm::kQuads, make_quads_regular, {}, false, true},
       {'O', "vertex optimisation", PatchForm::kQuads, PatchForm::kQuads, untangle_quads, optimise_quads},
   };
   return all;

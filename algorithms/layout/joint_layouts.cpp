@@ -7,7 +7,6 @@
 #include <span>
 #include <utility>
 
-#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/layout/layout_arcs.h"
 #include "algorithms/recombination/recombine.h"
@@ -38,8 +37,6 @@ constexpr double kOpenSumFactor = 2;
 /// Limits of agree_counts(): steps, and patches in one of its searches.
 constexpr long long kMostSteps = 200'000;
 constexpr int kMostLooks = 100;
-/// Rounds of annealing in a candidate.
-constexpr int kCleanupRounds = 10;
 /// Limit of choices of numbers.
 constexpr int kMostRounds = 16;
 /// Least eta of quads, unless they were worse before.
@@ -291,8 +288,7 @@ class JointLayout {
   QuadPatch by_front(const LayoutPatch& patch, const PatchBoundary& boundary) const {
     const TriPatch triangles = mesh_delquad(boundary, *make_linf_delquad(), *patch.cross, *patch.size);
     const QuadPatch merged = recombine(triangles, *make_primal_dual_solver());
-    return by_cavities(clean_up(treat_paper(merged, *patch.size), *patch.size, {.rounds = kCleanupRounds}),
-                       patch);
+    return by_cavities(make_regular(treat_paper(merged, *patch.size), *patch.size, without_price({})), patch);
   }
 
   /// Takes worthwhile groups. Returns false if a patch of each other group keeps its curves from now on.

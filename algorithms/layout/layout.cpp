@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/layout/field_lines.h"
 #include "algorithms/layout/layout_pieces.h"
@@ -441,7 +440,7 @@ class LayoutSearch {
     relocation.hold_lengths();
     relocation.activate_all();
     relocation.relax(kRelaxed, kSweeps);
-    relocation.lift_worst(kCleanupFloorEta, 10);
+    relocation.lift_worst(kFloorEta, 10);
     QuadPatch mesh = topology.to_patch();
     if (worst_sine(mesh) <= 0) untangle_flat(mesh, size_);
     if (worst_sine(mesh) <= 0) return std::nullopt;
@@ -518,8 +517,7 @@ std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary
     found = make_regular(*found, size);
     const PatchScore before = PatchScore::of(mesh, size), now = PatchScore::of(*found, size);
     const int fewer = before.irregular - now.irregular;
-    if (fewer <= 0 || before.loss(now) >= price * fewer || !before.keeps_worst(now, kCleanupFloorEta))
-      found.reset();
+    if (fewer <= 0 || before.loss(now) >= price * fewer || !before.keeps_worst(now, kFloorEta)) found.reset();
   }
   if (found) own.irregular = count_irregular(*found);
   own.worse = found || own.without == 1 ? 0 : 1;

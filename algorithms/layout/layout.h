@@ -64,7 +64,7 @@ struct PatchScore {
 };
 
 /// Returns the quads of a layout with fewer irregular vertices than the mesh. For each of them its loss
-/// (PatchScore::loss()) stays below the tolerance. No quad is worse than both kCleanupFloorEta and the old
+/// (PatchScore::loss()) stays below the tolerance. No quad is worse than both kFloorEta and the old
 /// worst. It examines few pieces. Returns nothing without such a layout.
 std::optional<QuadPatch> more_regular(const QuadPatch& mesh, const PatchBoundary& boundary,
                                       const CrossField& cross, const ParametricSize& size, double price,

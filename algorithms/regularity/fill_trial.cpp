@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "algorithms/cleanup/cleanup.h"
 #include "geometry/mesh/quad_corners.h"
 #include "smoothing/relocation/element_quality.h"
 
@@ -27,7 +26,7 @@ constexpr double kHopelessPart = 0.2;
 /// saves a fifth of the cost and removes 2 % fewer irregular vertices.
 constexpr double kHopelessLoss = 1.6;
 
-/// Moves below this part of an edge do not activate neighbors in the end, as in CleanupProcess.
+/// Moves below this part of an edge do not activate neighbors in the end.
 constexpr double kRelaxedAtLast = 0.02;
 
 bool is_slow(double repaired, double deficit) { return deficit > 0 && repaired < kHopelessPart * deficit; }
@@ -47,12 +46,12 @@ double promise_of(double quads, int left, int gain) { return (quads + kQuadsPerI
 void limit_relocation(QuadRelocation& relocation) {
   relocation.keep_convex_corners();
   relocation.hold_lengths();
-  relocation.keep_sines_above(sine_of_eta(kCleanupFloorEta));
+  relocation.keep_sines_above(sine_of_eta(kFloorEta));
 }
 
 long long relax_at_last(QuadRelocation& relocation) {
   const long long moves = relocation.relax(kRelaxedAtLast, 30);
-  return moves + relocation.lift_worst(kCleanupFloorEta, 10);
+  return moves + relocation.lift_worst(kFloorEta, 10);
 }
 
 void FillTrial::collect_region(const Cavity& cavity) {
@@ -91,7 +90,7 @@ void FillTrial::sweep() {
 
 bool settle(FillTrial& trial, double allowed, double& loss, long long& tried) {
   const FillTrial::Quality& before = trial.before;
-  const double least = std::min(before.least_sine, sine_of_eta(kCleanupFloorEta));
+  const double least = std::min(before.least_sine, sine_of_eta(kFloorEta));
   const double hopeless = allowed + kHopelessLoss / std::sqrt(before.n);
   double last_loss = 0, last_sine = 0;
   for (int sweep = 0; sweep <= kFillSweeps; ++sweep) {

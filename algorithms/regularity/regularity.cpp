@@ -6,25 +6,28 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "algorithms/cleanup/edit_in_blocks.h"
 #include "algorithms/regularity/cavity.h"
 #include "algorithms/regularity/fill_trial.h"
 #include "algorithms/regularity/patterns.h"
 #include "base/cancel.h"
 #include "base/option_table.h"
+#include "base/stopwatch.h"
 #include "geometry/mesh/quad_blocks.h"
+#include "geometry/mesh/quad_corners.h"
+#include "smoothing/relocation/untangling.h"
 
 namespace delquad {
 
 namespace {
 
-/// Moves below this part of an edge do not activate neighbors, as in CleanupProcess.
+/// Moves below this part of an edge do not activate neighbors.
 constexpr double kRelaxed = 0.08;
 
 /// State and steps of one make_regular().
@@ -39,10 +42,15 @@ class RegularityProcess {
         options_(options),
         search_(mesh_, energy_),
         cavity_(search_.cavity()),
-        trial_(mesh_, relocation_) {}
+        trial_(mesh_, relocation_),
+        opened_(lengthen_short_edges(mesh_, size)) {}
 
   void run() {
     limit_relocation(relocation_);
+    if (options_.settles_first) {
+      relocation_.activate_all(block_);
+      summary_.relocated += relocation_.relax(kRelaxed, 10);
+    }
     for (int round = 0; round < options_.rounds; ++round) {
       tolerance_ = tolerance_of(options_, round);
       quads_per_gain_ = quads_per_gain_of(options_, round);
@@ -58,14 +66,14 @@ class RegularityProcess {
           if (mesh_.vertex_alive(v) && energy_.of(v) > 0) visit(v);
       }
     }
-    if (summary_.accepted > 0) {
+    if (summary_.accepted > 0 || opened_ > 0) {
       relocation_.activate_all(block_);
       summary_.relocated += relax_at_last(relocation_);
     }
     summary_.looks = relocation_.looks();
   }
 
-  QuadPatch result() const { return mesh_.to_patch(); }
+  QuadPatch result() const { return summary_.accepted > 0 || opened_ > 0 ? mesh_.to_patch() : block_.mesh; }
   const RegularitySummary& summary() const { return summary_; }
 
  private:
@@ -201,6 +209,7 @@ class RegularityProcess {
   CavitySearch search_;
   Cavity& cavity_;
   FillTrial trial_;
+  int opened_;                        ///< edges that had no length
   double tolerance_ = 0;              ///< of this round
   double quads_per_gain_ = 0;         ///< limit for cavities of this round
   std::vector<int> visiting_, work_;  ///< irregular vertices of this round and of the next one
@@ -212,16 +221,57 @@ class RegularityProcess {
 
 }  // namespace
 
+int count_irregular(const QuadPatch& mesh) {
+  std::vector<int> valence(mesh.points.size(), 0);
+  std::vector<double> angle(mesh.n_boundary, 0);
+  const auto add = [&](const auto& corners) {
+    const std::size_t n = corners.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const int v = corners[k];
+      ++valence[v];
+      if (v >= mesh.n_boundary) continue;
+      const Vec2 out = mesh.points[corners[(k + 1) % n]] - mesh.points[v];
+      const Vec2 in = mesh.points[corners[(k + n - 1) % n]] - mesh.points[v];
+      angle[v] += std::atan2(cross(out, in), dot(out, in));
+    }
+  };
+  for (const auto& quad : mesh.quads) add(quad);
+  for (const auto& triangle : mesh.triangles) add(triangle);
+  int irregular = 0;
+  for (std::size_t v = 0; v < valence.size(); ++v) {
+    int ideal = 4;
+    if (v < angle.size()) {
+      const double turns = angle[v] / (2 * std::numbers::pi);
+      ideal = ideal_quads(4 * (turns - std::ceil(turns) + 1));
+    }
+    irregular += valence[v] > 0 && valence[v] != ideal;
+  }
+  return irregular;
+}
+
 QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size, const RegularityOptions& options,
                        RegularitySummary* summary) {
-  return edit_in_blocks<RegularityProcess>(mesh, size, options, summary);
+  const Stopwatch watch;
+  RegularitySummary total;
+  QuadPatch result = work_in_blocks(mesh, total, [&](const QuadBlock& block, RegularitySummary& part) {
+    RegularityProcess process(block, size, options);
+    process.run();
+    part = process.summary();
+    return process.result();
+  });
+  if (summary == nullptr) return result;
+  *summary = total;
+  summary->irregular_before = count_irregular(mesh);
+  summary->irregular_after = count_irregular(result);
+  summary->seconds = watch.seconds();
+  return result;
 }
 
 namespace {
 
 const OptionTable<RegularityOptions>& table() {
   static const auto all =
-      OptionTable<RegularityOptions>("regularity", "options of Q and R")
+      OptionTable<RegularityOptions>("regularity", "options of C, Q and R")
           .add({.name = "tolerance",
                 .help = "price of an irregular vertex, in quads times eta",
                 .least = 0,
@@ -249,6 +299,12 @@ const OptionTable<RegularityOptions>& table() {
 
 double price_factor(const RegularityOptions& options, double quads) {
   return options.usual_quads > 0 ? std::clamp(quads / options.usual_quads, 1.0, kMostPriceFactor) : 1;
+}
+
+RegularityOptions without_price(RegularityOptions options) {
+  options.tolerance = 0;
+  options.settles_first = true;
+  return options;
 }
 
 OptionGroup regularity_group() { return table().group(); }

@@ -7,7 +7,7 @@
 #include "delquad/fields.h"
 #include "delquad/mesh.h"
 
-// This header has stage Q, which fills cavities with patterns. Pipelines and layouts use it.
+// This header has stages C and Q, which fill cavities with patterns. Pipelines and layouts use it.
 
 namespace delquad {
 
@@ -17,7 +17,11 @@ struct RegularityOptions {
   int rounds = 3;        ///< rounds in which the tolerance grows
   double weight = 1;     ///< factor for the tolerances of all stages
   int usual_quads = 0;   ///< beyond them prices grow with the number of quads; 0: they do not
+  /// Whether all vertices are relocated before, so that tangles of the matching are gone.
+  bool settles_first = false;
 };
+/// Returns the options of stage C: nothing is paid, and vertices are relocated first.
+RegularityOptions without_price(RegularityOptions options);
 
 OptionGroup regularity_group();
 /// Returns the options, with the tolerance multiplied by the weight.
@@ -50,8 +54,14 @@ struct Counters<RegularitySummary> {
       counter("seconds", &S::seconds));
 };
 
-/// Removes irregular vertices that clean_up() leaves: pairs of valences 3 and 5 that no edit of a few quads
-/// removes. The idea of cavities is from [reberol2021], their growth and patterns are own.
+/// Counts the vertices whose valence is not ideal, see ValenceEnergy.
+int count_irregular(const QuadPatch& mesh);
+
+/// The least eta around a fill or relocation never falls below both this and its old value.
+inline constexpr double kFloorEta = 0.5;
+
+/// Removes irregular vertices, for which it pays the tolerance. Stage C is stage Q
+/// without a price. The idea of cavities is from [reberol2021], their growth and patterns are own.
 ///
 /// Cavities grow around every irregular vertex, and from there to the nearest others. They add quads at
 /// concave places of the rim until each rim vertex wants one quad inside (a corner) or two. The rim is then a
@@ -62,12 +72,12 @@ struct Counters<RegularitySummary> {
 /// tolerance and the size of cavities grow from round to round, so cheap gains come first. A failed fill is
 /// tried again only if the tolerance exceeds its loss, or quads have changed.
 ///
-/// The number of irregular vertices never grows, and the least eta never falls below both kCleanupFloorEta
-/// and its old value. No kept fill makes more quads fail (ElementQuality), which the sum hardly shows. A mesh
-/// without a kept fill does not change. Boundary points keep their places and order, and leftover triangles
-/// stay. The mesh stays conforming, oriented and of the same topology. The same input gives the same mesh.
-/// Time is linear in the number of irregular vertices. Throws std::invalid_argument if the input is not
-/// conforming.
+/// The number of irregular vertices never grows, and the least eta never falls below both kFloorEta
+/// and its old value. No kept fill makes more quads fail (ElementQuality), which the sum hardly shows. Edges
+/// without length are opened first; a mesh without them and without a kept fill does not change. Boundary
+/// points keep their places and order, and leftover triangles stay. The mesh stays conforming, oriented and
+/// of the same topology. The same input gives the same mesh. Time is linear in the number of irregular
+/// vertices. Throws std::invalid_argument if the input is not conforming.
 QuadPatch make_regular(const QuadPatch& mesh, const ParametricSize& size,
                        const RegularityOptions& options = {}, RegularitySummary* summary = nullptr);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/recombination/recombine.h"
 #include "algorithms/regularity/regularity.h"
@@ -68,27 +67,13 @@ inline QuadPatch treated(const QuadPatch& mesh, const PatchBoundary& boundary, c
   return result;
 }
 
-inline QuadPatch cleaned(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
-                         const CleanupOptions& options = {}, CleanupSummary* summary = nullptr) {
-  CleanupSummary own;
-  const QuadPatch result = clean_up(mesh, size, options, &own);
-  expect_sound(result, boundary);
-  EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
-  EXPECT_EQ(static_cast<int>(result.quads.size()) - static_cast<int>(mesh.quads.size()),
-            own.splits + 2 * own.openings - own.diamonds - own.doublets);
-  EXPECT_LE(valence_energy(result), valence_energy(mesh));
-  EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), sine_of_eta(kCleanupFloorEta)));
-  if (summary != nullptr) *summary = own;
-  return result;
-}
-
 inline QuadPatch regular(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
                          const RegularityOptions& options = {}, RegularitySummary* summary = nullptr) {
   RegularitySummary own;
   const QuadPatch result = make_regular(mesh, size, options, &own);
   expect_sound(result, boundary);
   EXPECT_EQ(result.triangles.size(), mesh.triangles.size());
-  EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), sine_of_eta(kCleanupFloorEta)));
+  EXPECT_GE(worst_sine(result), std::min(worst_sine(mesh), sine_of_eta(kFloorEta)));
   EXPECT_EQ(own.irregular_before, count_irregular(mesh));
   EXPECT_EQ(own.irregular_after, count_irregular(result));
   EXPECT_LE(own.irregular_after + own.accepted, own.irregular_before);
@@ -96,6 +81,15 @@ inline QuadPatch regular(const QuadPatch& mesh, const PatchBoundary& boundary, c
   expect_same(make_regular(mesh, size, options), result);
   if (summary != nullptr) *summary = own;
   return result;
+}
+
+/// By stage C.
+inline QuadPatch cleaned(const QuadPatch& mesh, const ParametricSize& size) {
+  return make_regular(mesh, size, without_price({}));
+}
+inline QuadPatch cleaned(const QuadPatch& mesh, const PatchBoundary& boundary, const ParametricSize& size,
+                         RegularitySummary* summary = nullptr) {
+  return regular(mesh, boundary, size, without_price({}), summary);
 }
 
 }  // namespace delquad::testing_support

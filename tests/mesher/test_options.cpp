@@ -28,8 +28,8 @@ TEST(OptionValues, AreThoseOfTheStructsUntilTheyAreSet) {
 
 TEST(OptionValues, WhatIsSetStaysWhereOthersHaveMore) {
   Options options = Options{}.set("smoothing.p", 8);
-  options.set_absent(Options{}.set("smoothing.p", 4).set("cleanup.rounds", 3));
-  EXPECT_EQ(options, Options{}.set("smoothing.p", 8).set("cleanup.rounds", 3));
+  options.set_absent(Options{}.set("smoothing.p", 4).set("regularity.rounds", 3));
+  EXPECT_EQ(options, Options{}.set("smoothing.p", 8).set("regularity.rounds", 3));
   EXPECT_TRUE(quality_named("best").options.flag("curves.round_holes"));
 }
 
@@ -67,8 +67,8 @@ TEST(OptionValues, InAFineMeshRegularityMayCostAsManyTimesMore) {
 
 TEST(OptionValues, AWholeNumberWillDoForANumber) {
   EXPECT_EQ(Options{}.set("optimisation.size", 1).number("optimisation.size"), 1.0);
-  expect_input_error([] { Options{}.set("cleanup.rounds", 1.0); },
-                     {"'cleanup.rounds' is 1", "a whole number"});
+  expect_input_error([] { Options{}.set("regularity.rounds", 1.0); },
+                     {"'regularity.rounds' is 1", "a whole number"});
 }
 
 TEST(OptionValues, MistakesAreNamed) {

@@ -74,7 +74,7 @@ TEST(Regularity, WhatACornerForbidsIsNotTriedAgain) {
   const FunctionSize size(0.06);
   for (int seed = 0; seed < 8; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
-    const QuadPatch mesh = clean_up(meshed(boundary, size), size);
+    const QuadPatch mesh = cleaned(meshed(boundary, size), size);
     RegularitySummary some, more;
     make_regular(mesh, size, {.tolerance = 0, .rounds = 20}, &some);
     make_regular(mesh, size, {.tolerance = 0, .rounds = 40}, &more);
@@ -96,7 +96,7 @@ TEST(Regularity, SidesStayShortWhateverTheTolerance) {
   const FunctionSize size(delta);
   for (int seed = 0; seed < 4; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, delta);
-    const QuadPatch mesh = clean_up(meshed(boundary, size), size);
+    const QuadPatch mesh = cleaned(meshed(boundary, size), size);
     const QuadPatch result = regular(mesh, boundary, size, {.tolerance = 30, .quads = 1000});
     EXPECT_LT(count_irregular(result), count_irregular(mesh) / 2) << seed;
     // Fills are relaxed once more when they are kept.
@@ -115,7 +115,7 @@ TEST(Regularity, NothingIsPaidWithoutTolerance) {
   int without = 0, with = 0;
   for (int seed = 0; seed < 4; ++seed) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
-    const QuadPatch mesh = clean_up(meshed(boundary, size), size);
+    const QuadPatch mesh = cleaned(meshed(boundary, size), size);
     const QuadPatch result = regular(mesh, boundary, size, {.tolerance = 0, .rounds = 1});
     EXPECT_GE(mean(result), mean(mesh) - 0.002) << seed;
     without += count_irregular(result);
@@ -124,10 +124,10 @@ TEST(Regularity, NothingIsPaidWithoutTolerance) {
   EXPECT_LT(with, 0.8 * without);
 }
 
-TEST(Regularity, FewerThanCleanUpLeaves) {
+TEST(Regularity, FewerThanTheTreatmentLeaves) {
   const FunctionSize size(0.03);
   const PatchBoundary boundary = shapes::rectangle(1, 0.9, 34, 30);
-  const QuadPatch mesh = clean_up(meshed(boundary, size), size);
+  const QuadPatch mesh = meshed(boundary, size);
   ASSERT_GT(count_irregular(mesh), 20);
   EXPECT_LT(count_irregular(regular(mesh, boundary, size)), 0.6 * count_irregular(mesh));
 }
@@ -140,7 +140,7 @@ TEST(Regularity, RandomPolygonsWithHoles) {
     const auto placement = seed % 2 == 0 ? make_linf_delquad() : make_l2_frontal();
     const QuadPatch mesh = treat_paper(matched(boundary, size, FunctionCross(0.3), *placement), size);
     regular(mesh, boundary, size);
-    regular(clean_up(mesh, size), boundary, size);
+    regular(cleaned(mesh, size), boundary, size);
   }
 }
 

@@ -71,8 +71,8 @@ void expect_linear_work(const QuadPatch& raw, const ParametricSize& size, const 
   const QuadPatch treated = treat_paper(raw, size, {}, &treatment);
   EXPECT_LT(static_cast<double>(treatment.looks), kMostLooks * n) << what;
   EXPECT_LT(static_cast<double>(treated.quads.size()), 6 * n) << what;
-  CleanupSummary cleanup;
-  const QuadPatch cleaned = clean_up(treated, size, {}, &cleanup);
+  RegularitySummary cleanup;
+  const QuadPatch cleaned = make_regular(treated, size, without_price({}), &cleanup);
   EXPECT_LT(static_cast<double>(cleanup.looks), kMostLooks * n) << what;
   EXPECT_LT(static_cast<double>(cleaned.quads.size()), 6 * n) << what;
   for (const QuadPatch* mesh : {&treated, &cleaned}) {
@@ -81,7 +81,7 @@ void expect_linear_work(const QuadPatch& raw, const ParametricSize& size, const 
     EXPECT_LT(static_cast<double>(regularity.looks), kMostLooks * n) << what;
     EXPECT_LT(static_cast<double>(regular.quads.size()), 6 * n) << what;
     EXPECT_LE(regularity.irregular_after, regularity.irregular_before) << what;
-    EXPECT_GE(worst_sine(regular), std::min(worst_sine(*mesh), sine_of_eta(kCleanupFloorEta))) << what;
+    EXPECT_GE(worst_sine(regular), std::min(worst_sine(*mesh), sine_of_eta(kFloorEta))) << what;
   }
 }
 

@@ -29,9 +29,9 @@ TEST(Threads, SameTreatmentCleanupAndRegularity) {
   const FunctionSize size(1);
   const QuadPatch treated = expect_same(mesh, [&](const QuadPatch& m) { return treat_paper(m, size); });
   EXPECT_LT(irregular(treated), irregular(mesh));
-  CleanupSummary summary;
-  const QuadPatch cleaned =
-      expect_same(treated, [&](const QuadPatch& m) { return clean_up(m, size, {}, &summary); });
+  RegularitySummary summary;
+  const QuadPatch cleaned = expect_same(
+      treated, [&](const QuadPatch& m) { return make_regular(m, size, without_price({}), &summary); });
   EXPECT_LT(irregular(cleaned), irregular(treated));
   EXPECT_EQ(summary.irregular_after, irregular(cleaned)) << "the boundary has none";
   const QuadPatch regular = expect_same(treated, [&](const QuadPatch& m) { return make_regular(m, size); });

@@ -31,12 +31,12 @@ class Planned : public testing::Test {
 };
 
 TEST_F(Planned, HypothesesMayBeOnValues) {
-  EXPECT_EQ(
-      read("[matrix]\ncleanup.tolerance = [0.1, 0.05]\n[[hypotheses]]\nalong = \"tolerance\"\nbetter = 0.05\n"
-           "than = 0.1\nmeasures = [\"d4\"]\n" +
-           kRectangles)
-          .hypotheses.at(0),
-      (Hypothesis{"tolerance", "0.05", "0.1", {"d4"}}));
+  EXPECT_EQ(read("[matrix]\nregularity.tolerance = [0.1, 0.05]\n[[hypotheses]]\nalong = "
+                 "\"tolerance\"\nbetter = 0.05\n"
+                 "than = 0.1\nmeasures = [\"d4\"]\n" +
+                 kRectangles)
+                .hypotheses.at(0),
+            (Hypothesis{"tolerance", "0.05", "0.1", {"d4"}}));
 }
 
 TEST_F(Planned, ADryRunSaysWhatCanBeProven) {
@@ -132,7 +132,7 @@ TEST_F(Planned, NothingOfCasesCanBeTried) {
   EXPECT_EQ(plan_of(head + with(first, "0.5", "5e-1") + second), before) << "the same number";
   for (const std::string& other :
        {with(first, "seed = 1", "seed = 2"), with(first, "size = 0.5", "size = 0.4"),
-        first + "cleanup = { rounds = 1 }\n", first + "domain = 'b'\n"})
+        first + "regularity = { rounds = 1 }\n", first + "domain = 'b'\n"})
     EXPECT_NE(plan_of(head + other + second), before) << other;
   EXPECT_NE(plan_of(with(head, "'DBC']", "'DBC', 'FB']") + first + second), before) << "a pipeline more";
   const std::string peer =

@@ -33,10 +33,10 @@ TEST_F(Matrix, EveryCombinationIsAVariant) {
 }
 
 TEST_F(Matrix, KeysMayBeQuoted) {
-  const Experiment e = read("[matrix]\n\"insertion.h_max\" = [1.3, 1.4]\n\"cleanup\".seed = [2]\n");
+  const Experiment e = read("[matrix]\n\"insertion.h_max\" = [1.3, 1.4]\n\"curves\".agreement = [2]\n");
   ASSERT_EQ(e.n_variants(), 2u);
   EXPECT_EQ(e.read_variant(0, 1).options.number("insertion.h_max"), 1.4);
-  EXPECT_EQ(e.read_variant(0, 1).folder, "a@seed=2,h_max=1.4");
+  EXPECT_EQ(e.read_variant(0, 1).folder, "a@agreement=2,h_max=1.4");
 }
 
 TEST_F(Matrix, OtherKeysOfATableStay) {
@@ -66,11 +66,11 @@ TEST_F(Matrix, VariantsAreSetsOfKeysUnderAName) {
 TEST_F(Matrix, LikeNamedAxesAndLongValuesAreToldApart) {
   const std::string value(60, '1');
   const Experiment e =
-      read("[matrix]\ncleanup.seed = [1]\nseed = [2]\nsize = [\"1/" + value + "\", \"1\"]\n");
-  const std::string folder = e.read_variant(0).folder, begin = "a@cleanup.seed=1,seed=2,size=value-";
+      read("[matrix]\noptimisation.size = [1]\nseed = [2]\nsize = [\"1/" + value + "\", \"1\"]\n");
+  const std::string folder = e.read_variant(0).folder, begin = "a@optimisation.size=1,seed=2,size=value-";
   EXPECT_EQ(folder.substr(0, begin.size()), begin);
   const Experiment more =
-      read("[matrix]\ncleanup.seed = [1]\nseed = [2]\nsize = [\"2\", \"1/" + value + "\", \"1\"]\n");
+      read("[matrix]\noptimisation.size = [1]\nseed = [2]\nsize = [\"2\", \"1/" + value + "\", \"1\"]\n");
   EXPECT_EQ(more.read_variant(0, 1).folder, folder) << "another value beside it changes nothing";
 }
 

@@ -231,7 +231,8 @@ TEST_F(SchemaPrograms, AgreesWithThePeersOfJsonSchema) {
     }()) << name;
   };
   expect("plain", square, true);
-  expect("matrix", "[matrix]\nsize = [1, \"x\"]\ninsertion.h_max = [1.3]\n\"cleanup.seed\" = [2]\n" + square,
+  expect("matrix",
+         "[matrix]\nsize = [1, \"x\"]\ninsertion.h_max = [1.3]\n\"regularity.rounds\" = [2]\n" + square,
          true);
   expect("unknown", "titel = 'x'\n" + square, false);
   expect("unknown_inside", square + "insertion = { hmax = 1.3 }\n", false);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "algorithms/cleanup/cleanup.h"
 #include "algorithms/insertion/frontal_mesher.h"
 #include "algorithms/treatment/treatment.h"
 #include "features/crosses/size_aware.h"
@@ -266,18 +265,6 @@ TEST_F(Cases, OptionsReachTheStages) {
   const MeshResult result = run_pipeline(prepare_case(c), parse_pipeline("FB"));
   EXPECT_TRUE(result.log.summaries.has("recombination"));
   EXPECT_FALSE(result.log.summaries.has("treatment"));
-}
-
-TEST_F(Cases, CleanupOptionsReachTheStage) {
-  const std::string text = square_ + "size = 0.1\ncleanup = { rounds = 2, tolerance = 0.01, seed = 7 }\n";
-  const Case c = read(text);
-  EXPECT_EQ(cleanup_options(c.options).rounds, 2);
-  EXPECT_EQ(cleanup_options(c.options).tolerance, 0.01);
-  EXPECT_EQ(cleanup_options(c.options).seed, 7);
-  const MeshResult result = run_pipeline(prepare_case(c), parse_pipeline("FBC"));
-  const Summaries& done = result.log.summaries;
-  ASSERT_TRUE(done.has("cleanup"));
-  EXPECT_LE(done.number("cleanup", "irregular_after"), done.number("cleanup", "irregular_before"));
 }
 
 TEST_F(Cases, OptimisationOptionsReachTheStage) {

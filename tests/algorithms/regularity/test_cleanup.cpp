@@ -76,14 +76,13 @@ TEST(Cleanup, ScrambledGridRecovers) {
 }
 
 TEST(Cleanup, DoubletGoes) {
-  CleanupSummary summary;
-  cleaned(doublet(), shapes::rectangle(2, 2, 1, 1), FunctionSize(2), {}, &summary);
-  EXPECT_EQ(summary.doublets + summary.diamonds, 1);
+  const QuadPatch result = cleaned(doublet(), shapes::rectangle(2, 2, 1, 1), FunctionSize(2));
+  EXPECT_EQ(result.quads.size(), 1u);
 }
 
 TEST(Cleanup, TriesNothingOnARegularGrid) {
-  CleanupSummary summary;
-  cleaned(grid_patch(7, 5), shapes::rectangle(7, 5, 7, 5), FunctionSize(1), {}, &summary);
+  RegularitySummary summary;
+  cleaned(grid_patch(7, 5), shapes::rectangle(7, 5, 7, 5), FunctionSize(1), &summary);
   EXPECT_EQ(summary.irregular_before, 0);
   EXPECT_EQ(summary.tried, 0);
 }
@@ -107,20 +106,8 @@ TEST(Cleanup, FlatBoundaryVertexGetsItsSecondQuad) {
 TEST(Cleanup, EdgeWithoutLengthIsOpened) {
   QuadPatch mesh = grid_patch(6, 6);
   mesh.points[mesh.n_boundary + 7] = mesh.points[mesh.n_boundary + 8] + Vec2{-1e-16, 0};
-  const QuadPatch result = clean_up(mesh, FunctionSize(1));
+  const QuadPatch result = cleaned(mesh, FunctionSize(1));
   EXPECT_GT(worst_sine(result), 0.9);
-}
-
-TEST(Cleanup, AnnealingFindsWhatGreedyCannot) {
-  const FunctionSize size([](Vec2 p) { return 0.04 * (1 + norm(p)); });
-  int greedy = 0, annealed = 0;
-  for (int seed = 0; seed < 10; ++seed) {
-    const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
-    const QuadPatch mesh = treat_paper(matched(boundary, size), size);
-    greedy += valence_energy(cleaned(mesh, boundary, size, {.rounds = 0}));
-    annealed += valence_energy(cleaned(mesh, boundary, size));
-  }
-  EXPECT_LT(annealed, 0.95 * greedy);
 }
 
 TEST(Cleanup, RandomPolygonsWithHoles) {
@@ -133,7 +120,7 @@ TEST(Cleanup, RandomPolygonsWithHoles) {
     const QuadPatch result = cleaned(mesh, boundary, size);
     EXPECT_GT(worst_sine(result), 0);
     EXPECT_EQ(forced_bad(result), 0);
-    expect_same(clean_up(mesh, size), result);
+    expect_same(cleaned(mesh, size), result);
   }
 }
 
@@ -144,15 +131,6 @@ TEST(Cleanup, WorksOnWhatMatchingLeaves) {
     const PatchBoundary boundary = shapes::random_polygon_with_holes(seed, 0.06);
     cleaned(matched(boundary, size), boundary, size);
   }
-}
-
-TEST(Cleanup, SeedsDiffer) {
-  const PatchBoundary boundary = shapes::random_polygon_with_holes(3, 0.06);
-  const FunctionSize size(0.05);
-  const QuadPatch mesh = treat_paper(matched(boundary, size, FunctionCross(0.3), *make_l2_frontal()), size);
-  const QuadPatch first = cleaned(mesh, boundary, size, {.seed = 1});
-  const QuadPatch second = cleaned(mesh, boundary, size, {.seed = 2});
-  EXPECT_NE(first.points, second.points);
 }
 
 TEST(Cleanup, NoVerticesNearlyCoincide) {
