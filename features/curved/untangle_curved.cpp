@@ -254,8 +254,6 @@ constexpr std::array kTrials{Trial{2, false, TargetShape::kStraight, {1, 3}},
                              Trial{6, true, TargetShape::kRightAngled, {0.1, 4}},
                              Trial{3, true, TargetShape::kRightAngled, {0.05, 8}},
                              Trial{2, true, TargetShape::kRightAngled, {0.2, 4}}};
-/// Trials after the first treat elements below this bound.
-constexpr double kRetryJacobian = 1.2 * kLowJacobian;
 
 class CurvedUntangler {
  public:
@@ -349,7 +347,7 @@ class CurvedUntangler {
     const double proven = bounds_[q].proven;
     if (proven <= 0) return true;
     if (proven >= std::min(kPoorJacobian, kPartOfAllowed * limits_.allowed[q])) return false;
-    if (trial.moves_vertices) return proven < kRetryJacobian;
+    if (trial.moves_vertices) return true;
     std::vector<Vec3> straight;
     for (const int corner : {0, 1, 3, 2}) straight.push_back(mesh_.points[mesh_.quads[q][corner]]);
     constexpr double kAsGood = 0.7;
