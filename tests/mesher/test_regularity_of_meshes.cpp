@@ -11,7 +11,7 @@ Mesh meshed_l() {
   problem.model =
       polygons({{{0, 0}, {3, 0}, {3, 1}, {1, 2}, {1, 3}, {0, 3}}, {{0.3, 0.4}, {0.5, 0.9}, {0.8, 0.5}}});
   problem.size.field = make_constant_size(0.08);
-  return mesh(problem, "DBC").mesh;
+  return mesh(problem, "DB").mesh;
 }
 
 /// The same with points, quads and the first corners of quads in another order.

@@ -60,8 +60,13 @@ TEST(AcrossCuts, ATorusGetsFewerIrregularVertices) {
                [](const Vec3& p) { return std::abs(std::hypot(std::hypot(p.x, p.y) - 1, p.z) - 0.4); });
 }
 
-TEST(AcrossCuts, ASphereGetsFewerIrregularVertices) {
-  expect_fewer(round_sphere(24).fine, 0.06, [](const Vec3& p) { return std::abs(norm(p) - 1); });
+TEST(AcrossCuts, ASphereNeedsNoOtherCuts) {
+  const MeshResult result = mesh_scan(round_sphere(24).fine, 0.06);
+  EXPECT_EQ(result.metrics.values.at("n_irregular"), 8) << "as few as on a cube";
+  EXPECT_EQ(result.log.summaries.get<long long>("across_cuts", "taken"), 0);
+  EXPECT_TRUE(result.soundness.sound()) << result.soundness.text();
+  EXPECT_GT(result.metrics.values.at("eta_worst"), 0.5);
+  EXPECT_GT(result.metrics.values.at("tau"), 90);
 }
 
 TEST(AcrossCuts, NothingHappensToAnOpenScanWithoutCuts) {
