@@ -231,7 +231,8 @@ TEST(Sections, TheSameBytesForEveryNumberOfThreads) {
   expect_input_error([&] { write_mesh(folder / "a.obj", named); },
                      {"a.obj", "not written with cells", ".msh, .vtu, .inp, "});
   expect_input_error([&] { write_mesh(folder / "a.what", named); }, {"unknown kind", ".what"});
-  expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.binary = true}); }, {"--binary is for .msh"});
+  expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.binary = true}); },
+                     {"--binary is for .msh"});
   expect_input_error([&] { write_mesh(folder / "a.vtu", named, {.element = "C3D8"}); },
                      {"expected .inp with --element"});
   expect_input_error([&] { write_mesh(folder / "a.inp", named, {.element = "C3D21"}); },
