@@ -72,7 +72,7 @@ def test_closed_models_are_filled(tmp_path):
     tets = delquad.volume(skin, cells="tets")
     assert len(tets.hexahedra) == 0 and len(tets.triangles) == 2 * len(skin.quads) and tets.volume == pytest.approx(ball.volume, rel=0.01)
 
-    layered = delquad.volume(skin, layers=(0.01, 1.2, 3))
+    layered = delquad.volume(skin, layers=(0.01, 1.2, 3.0))
     with pytest.warns(UserWarning, match="layers are lower"):
         delquad.volume(skin, layers=(3, 1.2, 3))
     assert len(layered.hexahedra) >= 3 * len(skin.quads)
@@ -90,7 +90,7 @@ def test_what_cannot_be_filled():
     with pytest.raises(delquad.InputError, match="goes with layers only"):
         delquad.volume(square(), layers_on="wall")
     with pytest.raises(delquad.InputError, match="a whole number"):
-        delquad.volume(square(), layers=(1, 1, 1.5))
+        delquad.volume(square(), layers=(1, 1, float("nan")))
     with pytest.raises(delquad.InputError, match="layers: a growth of 0.5"):
         delquad.volume(delquad.mesh(delquad.example("sphere"), quads=100), layers=(0.1, 0.5, 3))
     with pytest.raises(delquad.InputError, match="open at the edge"):

@@ -49,12 +49,14 @@ def volume(model, size=None, *, cells="hex-dominant", strategy="DBCO", layers=No
     max_elements: of the skin, and of cells. threads: 0 for the number of cores.
     time_limit: in seconds, of the skin and of the cells; 0 for none.
 
-    Warns of places where layers are lower or end. Bodies become volumes, and regions of the skin faces. Raises InputError, with the place, if quads are open or cross
-    each other, or a body cannot be filled.
+    Warns of places where layers are lower or end. Bodies become volumes, and regions of the skin faces. Raises InputError,
+    with the place, if quads are open or cross each other, or a body cannot be filled.
     """
     layers_on = [layers_on] if isinstance(layers_on, str) else list(layers_on)
-    if layers is not None and not (len(layers) == 3 and layers[2] == int(layers[2])):
-        raise _core.InputError(f"layers: {layers}: expected first height, growth and a whole number")
+    if layers is not None:
+        if not (len(layers) == 3 and float(layers[2]).is_integer()):
+            raise _core.InputError(f"layers: {layers}: expected first height, growth and a whole number")
+        layers = (layers[0], layers[1], int(layers[2]))
     if layers_on and layers is None:
         raise _core.InputError("layers_on goes with layers only")
     if isinstance(model, _core.Mesh):
@@ -66,8 +68,8 @@ def volume(model, size=None, *, cells="hex-dominant", strategy="DBCO", layers=No
         if rows := _core.rows_beside(skin, layers, layers_on) if layers_on else None:
             try:
                 skin = _mesh(model, size, layers=[rows], **settings)
-            except _core.InputError:  # layers end by prisms
-                pass
+            except _core.InputError as error:
+                warnings.warn(f"layers end by prisms at other faces, which get none: {error}", stacklevel=2)
         model = skin
     mesh, notes = _core.fill_skin(model, cells, strategy, max_elements, threads, time_limit, layers, layers_on)
     for note in notes:
