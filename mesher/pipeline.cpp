@@ -16,6 +16,7 @@
 #include "base/system.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/curves/compose_size.h"
 #include "features/metric/metric_plane.h"
 #include "features/metric/metric_surface.h"
 #include "features/symmetry/mirrored_surface.h"
@@ -59,7 +60,6 @@ std::vector<char> collect_failures(const MeshingSetup& prepared, const std::vect
 void check_order(const MeshingSetup& p) {
   if (p.settings.order == 1 || !p.surface) return;
   const char* other = p.surface->given                     ? "a mesh that is given"
-                      : p.surface->mirrored                ? "planes of symmetry of a surface"
                       : !p.boundary.periodic_faces.empty() ? "periodic faces"
                                                            : nullptr;
   if (other != nullptr)
@@ -70,6 +70,7 @@ void check_order(const MeshingSetup& p) {
 /// Returns the steps for the kind of model.
 std::unique_ptr<ModelSteps> steps_of(const MeshProblem& problem, const RetryHints& hints) {
   const ModelKind kind = kind_of(problem.model);
+  if (kind.has_outlines() && is_symmetric(problem)) return surface_steps(problem, hints);
   if (kind.in_plane) return planar_steps(problem, hints);
   return kind.is_given ? given_surface_steps(problem) : surface_steps(problem, hints);
 }

@@ -58,6 +58,10 @@ std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const Retry
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints);
 std::unique_ptr<ModelSteps> given_surface_steps(const MeshProblem& problem);
 
+/// Returns the cross field of the plane that a problem asks for; null: none. `boundary` has the domain's
+/// points.
+std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary, MeshingSetup& p);
+
 /// A problem of a planar model whose outlines are changed before they are meshed.
 struct OtherOutlines {
   MeshProblem problem;

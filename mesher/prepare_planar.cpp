@@ -32,10 +32,6 @@
 namespace delquad {
 namespace {
 
-/// Step of central differences for the direction of grad delta, over the diagonal of the domain. It is far
-/// above rounding of the coordinates, and far below any feature that a mesh could show.
-constexpr double kGradientStep = 1e-6;
-
 /// Sets background and size of a domain whose lines are kept. `own` makes the size in place of a missing
 /// base.
 void set_kept_size(const SizeSpec& spec, const PlanarDomain& domain, MeshingSetup& p,
@@ -95,22 +91,12 @@ void check_index_sum(const MeshProblem& problem, MeshingSetup& p) {
                   problem.name, sum, expected));
 }
 
-/// Returns the cross field that the problem gives; null: none.
-std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary, MeshingSetup& p) {
-  if (!spec.function) return spec.field;
-  return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size.field,
-                      spec.where + ": the cross function", p.warnings);
-}
-
 /// Returns the cross field of the whole domain; null: patches get their own, see make_crosses_size_aware().
 std::shared_ptr<const CrossField> make_cross(const MeshProblem& problem,
                                              const std::shared_ptr<const CrossField>& given,
                                              MeshingSetup& p) {
   const CrossSpec& cross = problem.cross;
-  if (cross.kind == CrossKind::kGradient)
-    return make_gradient_cross(p.size.field, kGradientStep * diagonal(p.boundary));
-  if (cross.kind == CrossKind::kField)
-    return problem.seed == 0 ? given : rotated(given, Rotation::by_seed(problem.seed));
+  if (given) return problem.seed == 0 ? given : rotated(given, Rotation::by_seed(problem.seed));
   if (cross.kind == CrossKind::kSizeAware) return nullptr;
   auto field = std::make_shared<HarmonicCrossField>(p.plane.background);
   for (const Singularity& s : field->singularities())
@@ -237,6 +223,16 @@ class PlanarSteps final : public ModelSteps {
 };
 
 }  // namespace
+
+std::shared_ptr<const CrossField> given_cross(const CrossSpec& spec, const Mesh& boundary, MeshingSetup& p) {
+  // Far above rounding of the coordinates, and far below any feature that a mesh could show.
+  constexpr double kGradientStep = 1e-6;  // over the diagonal of the domain
+  if (spec.kind == CrossKind::kGradient)
+    return make_gradient_cross(p.size.field, kGradientStep * diagonal(boundary));
+  if (!spec.function) return spec.field;
+  return sample_cross(spec.function, {Box<Vec3>::around(boundary.points)}, *p.size.field,
+                      spec.where + ": the cross function", p.warnings);
+}
 
 std::unique_ptr<ModelSteps> planar_steps(const MeshProblem& problem, const RetryHints& hints) {
   return std::make_unique<PlanarSteps>(problem, hints);

@@ -40,6 +40,7 @@
 #include "features/symmetry/mirrored_surface.h"
 #include "features/thin/gap_sizes.h"
 #include "features/washers/surface_washers.h"
+#include "geometry/mesh/model_kind.h"
 #include "geometry/surface/flatten.h"
 #include "geometry/surface/improve_triangulation.h"
 #include "mesher/prepare.h"
@@ -135,6 +136,34 @@ void prepare_patches(const std::shared_ptr<SurfaceSetup>& surface, MeshingSetup&
       [&](std::size_t i) { return static_cast<double>(patches[i].map.flat.triangles.size()); });
 }
 
+/// A cross field of the plane of a flat surface, in the parameters of a patch.
+class FlatCross final : public CrossField {
+ public:
+  FlatCross(std::shared_ptr<const CrossField> cross, std::shared_ptr<const SurfaceSetup> surface, int patch)
+      : cross_(std::move(cross)), surface_(std::move(surface)), patch_(surface_->domain.patches[patch]) {}
+  Cross at(Vec2 u, int& hint) const override {
+    const Mesh& fine = surface_->model.fine;
+    const Vec3 x = fine_place(patch_, fine, u, hint);
+    const auto [a, b] = tangents(patch_, fine, hint);
+    int far_hint = -1;
+    const double theta = cross_->at({x.x, x.y}, far_hint).angle();
+    const Vec3 along{std::cos(theta), std::sin(theta), 0};
+    return Cross::along({along.x * b.y - along.y * b.x, a.x * along.y - a.y * along.x});
+  }
+
+ private:
+  std::shared_ptr<const CrossField> cross_;
+  std::shared_ptr<const SurfaceSetup> surface_;
+  const SurfacePatch& patch_;
+};
+
+/// Replaces the fields of a flat surface's patches by a field of its plane.
+void follow_in_plane(const std::shared_ptr<const CrossField>& cross,
+                     const std::shared_ptr<const SurfaceSetup>& surface, MeshingSetup& p) {
+  for (std::size_t i = 0; i < p.patches.size(); ++i)
+    p.patches[i].cross = std::make_shared<FlatCross>(cross, surface, static_cast<int>(i));
+}
+
 void append(std::vector<Warning>& warnings, const std::vector<Warning>& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
@@ -145,7 +174,7 @@ class SurfaceSteps final : public ModelSteps {
 
   void read(MeshingSetup& p) override {
     read_model(p);
-    check_surface_cross(problem_.cross);
+    if (!kind_of(problem_.model).in_plane) check_surface_cross(problem_.cross);
     p.unselected = unselected_faces();
     failures_.ignore(p.unselected);
     check_count(expected_quads(model_.fine, SurfaceSize(asked_), {}, nullptr, p.unselected), problem_);
@@ -212,6 +241,7 @@ class SurfaceSteps final : public ModelSteps {
 
   void make_patches(MeshingSetup& p) override {
     prepare_patches(surface_, p);
+    if (const auto cross = given_cross(problem_.cross, p.boundary, p)) follow_in_plane(cross, surface_, p);
     add_grids(mapped_, surface_->domain.mapped, p);
     for (std::size_t i = 0; i < p.patches.size(); ++i)
       if (p.patches[i].grid && p.patches[i].grid_stays)

@@ -16,6 +16,7 @@
 #include "base/segment.h"
 #include "base/sort_unique.h"
 #include "delquad/model.h"
+#include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/nearest_on_regions.h"
 
 namespace delquad {
@@ -227,20 +228,10 @@ class PlanarGeometry final : public ModelGeometry {
 class SurfaceGeometry final : public ModelGeometry {
  public:
   SurfaceGeometry(const SurfaceSetup& surface, const SurfaceNodes& nodes, const Mesh& mesh)
-      : surface_(surface), mesh_(mesh) {
-    const SurfaceDomain& domain = surface.domain;
-    for (std::size_t c = 0; c < domain.chains.size(); ++c) {
-      chains_of_[domain.chains[c].curve].push_back(static_cast<int>(c));
-      for (std::size_t k = 1; k + 1 < nodes.on_curve[c].size(); ++k)
-        if (!domain.chain_stays[c]) sliding_.insert(place_of(nodes.points[nodes.on_curve[c][k].node]));
-      for (std::size_t k = 0; k + 1 < nodes.on_curve[c].size(); ++k) {
-        const CurveNode &a = nodes.on_curve[c][k], &b = nodes.on_curve[c][k + 1];
-        spans_.emplace(key(domain.chains[c].curve, nodes.points[a.node], nodes.points[b.node]),
-                       Span{static_cast<int>(c), a.s, b.s});
-        spans_.emplace(key(domain.chains[c].curve, nodes.points[b.node], nodes.points[a.node]),
-                       Span{static_cast<int>(c), b.s, a.s});
-      }
-    }
+      : surface_(surface), mesh_(mesh), tolerance_(kOnPlane * diagonal(mesh)) {
+    const int images = mirrored() != nullptr ? 1 << mirrored()->planes.count() : 1;
+    for (std::size_t c = 0; c < surface.domain.chains.size(); ++c)
+      for (int planes = 0; planes < images; ++planes) add_chain(static_cast<int>(c), planes, nodes);
     if (!surface.model.projector) facets_.emplace(surface.model.fine);
   }
 
@@ -250,19 +241,69 @@ class SurfaceGeometry final : public ModelGeometry {
     std::vector<Vec3> points;
     for (const double part : parts)
       points.push_back(found == spans_.end() ? straight_point(mesh_, line, part)
-                                             : on_span(found->second, part));
+                                             : image(found->second.planes, on_span(found->second, part)));
     return points;
   }
-  std::optional<Vec3> on_curve(int curve, const Vec3& x) const override {
-    const auto found = chains_of_.find(curve);
+  std::optional<Vec3> on_curve(int curve, const Vec3& given) const override {
+    const int planes = planes_before(given);
+    const auto found = chains_of_.find({planes, curve});
     if (found == chains_of_.end()) return std::nullopt;
+    return image(planes, on_chains(found->second, image(planes, given)));
+  }
+  bool slides(int vertex) const override { return sliding_.contains(place_of(mesh_.points[vertex])); }
+  Vec3 on_face(int region, const Vec3& given) const override {
+    const int planes = planes_before(given);
+    const int face = planes != 0 ? image_face(*mirrored(), planes, region) : region;
+    const Vec3 x = image(planes, given);
+    return image(planes, facets_ ? facets_->place(face, x) : surface_.model.projector->to_face(face, x));
+  }
+
+ private:
+  const MirroredSurface* mirrored() const { return surface_.mirrored.get(); }
+  /// Returns the bits of the planes of symmetry behind which x lies.
+  int planes_before(const Vec3& x) const {
+    return mirrored() != nullptr ? mirrored()->planes.folds_of(x, tolerance_) : 0;
+  }
+  Vec3 image(int planes, const Vec3& x) const {
+    return planes != 0 ? mirrored()->planes.reflect_all(planes, x) : x;
+  }
+
+  /// Adds the image of a chain at planes of symmetry.
+  void add_chain(int c, int planes, const SurfaceNodes& nodes) {
+    const SurfaceDomain& domain = surface_.domain;
+    const std::vector<CurveNode>& on_curve = nodes.on_curve[c];
+    std::vector<int> curves{domain.chains[c].curve};
+    if (mirrored() != nullptr) {
+      const int whole = mirrored()->whole_curve[curves[0]];
+      if (whole < 0) return;
+      curves = image_curves(*mirrored(), planes, whole);
+    }
+    const auto at = [&](std::size_t k) {
+      const int node = on_curve[k].node;
+      return mirrored() != nullptr ? image_node(*mirrored(), planes, node, nodes.points[node])
+                                   : nodes.points[node];
+    };
+    for (std::size_t k = 1; k + 1 < on_curve.size(); ++k)
+      if (!domain.chain_stays[c]) sliding_.insert(place_of(at(k)));
+    for (const int curve : curves) {
+      chains_of_[{planes, curve}].push_back(c);
+      for (std::size_t k = 0; k + 1 < on_curve.size(); ++k) {
+        spans_.emplace(key(curve, at(k), at(k + 1)), Span{c, planes, on_curve[k].s, on_curve[k + 1].s});
+        spans_.emplace(key(curve, at(k + 1), at(k)), Span{c, planes, on_curve[k + 1].s, on_curve[k].s});
+      }
+    }
+  }
+
+  /// Returns the nearest place of chains that are on one curve.
+  Vec3 on_chains(const std::vector<int>& chains, const Vec3& x) const {
+    const int curve = surface_.domain.chains[chains.front()].curve;
     if (const auto& projector = surface_.model.projector) {
       const int face = surface_.domain.cut_face[curve];
       return face >= 0 ? projector->to_face(face, x) : projector->to_curve(curve, x);
     }
     const std::vector<Vec3>& p = surface_.model.fine.points;
-    Vec3 best = p[surface_.domain.chains[found->second.front()].points.front()];
-    for (const int c : found->second) {
+    Vec3 best = p[surface_.domain.chains[chains.front()].points.front()];
+    for (const int c : chains) {
       const std::vector<int>& chain = surface_.domain.chains[c].points;
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const Vec3 at = nearest_on_segment(x, p[chain[i]], p[chain[i + 1]]);
@@ -271,18 +312,13 @@ class SurfaceGeometry final : public ModelGeometry {
     }
     return best;
   }
-  bool slides(int vertex) const override { return sliding_.contains(place_of(mesh_.points[vertex])); }
-  Vec3 on_face(int region, const Vec3& x) const override {
-    return facets_ ? facets_->place(region, x) : surface_.model.projector->to_face(region, x);
-  }
 
- private:
   /// A curve and two places: nodes are told by these, for meshes number them in their own ways.
   using Key = std::tuple<int, double, double, double, double, double, double>;
   static Key key(int curve, const Vec3& a, const Vec3& b) { return {curve, a.x, a.y, a.z, b.x, b.y, b.z}; }
-  /// Between two places on a chain, see CurveNode.
+  /// Between two places on a chain, see CurveNode, or on its image at planes of symmetry.
   struct Span {
-    int chain;
+    int chain, planes;
     double from, to;
   };
 
@@ -306,10 +342,14 @@ class SurfaceGeometry final : public ModelGeometry {
     return place_on_curve(surface_.model, chain, domain.cut_face, s[i - 1] + t * (s[i] - s[i - 1]));
   }
 
+  /// Places on planes of symmetry are no further from them, in diagonals.
+  static constexpr double kOnPlane = 1e-9;
+
   const SurfaceSetup& surface_;
   const Mesh& mesh_;
+  double tolerance_;
   std::map<Key, Span> spans_;
-  std::map<int, std::vector<int>> chains_of_;  ///< of each curve
+  std::map<std::pair<int, int>, std::vector<int>> chains_of_;  ///< by planes of symmetry and curve
   PlaceSet sliding_;
   std::optional<NearestOnRegions> facets_;  ///< of a triangulation
 };

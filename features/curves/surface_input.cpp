@@ -10,12 +10,16 @@
 #include <numbers>
 #include <utility>
 
+#include "algorithms/fields/fields.h"
+#include "algorithms/fields/size_by.h"
 #include "base/disjoint_sets.h"
 #include "base/length_unit.h"
 #include "base/located.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/curves/compose_size.h"
+#include "features/curves/flat_model.h"
 #include "features/naming/name_parts.h"
 #include "features/sizes/curve_options.h"
 #include "features/symmetry/symmetry_planes.h"
@@ -26,6 +30,7 @@
 #include "geometry/mesh/keep_elements.h"
 #include "geometry/mesh/split_polygon.h"
 #include "geometry/mesh/stray_points.h"
+#include "geometry/planar/model_chain.h"
 #include "geometry/surface/compound.h"
 #include "geometry/surface/ignore_small.h"
 
@@ -254,6 +259,21 @@ LooseLine loose_line(const EmbeddedLine& line, const std::string& where) {
   return loose;
 }
 
+/// Regions of a planar model.
+SurfaceModel make_flat(const MeshProblem& problem, const PlanarModel& model) {
+  constexpr int kChords = 64;           // a curve
+  constexpr double kMetricEdge = 0.01;  // in diagonals: metrics divide edges
+  constexpr double kEdge = 0.25;        // in sizes
+  std::vector<Warning> warnings;
+  const auto size = problem.metric.asks()
+                        ? make_constant_size(kMetricEdge * norm(box_of(model, kChords).size()))
+                        : scaled(kEdge, planar_base_size(problem.size, model, warnings));
+  SurfaceModel flat = flat_surface(model, *size);
+  flat.fine.unit = problem.surface.unit;
+  flat.warnings.insert(flat.warnings.begin(), model.notes.begin(), model.notes.end());
+  return flat;
+}
+
 /// CAD or an example.
 SurfaceModel make_from_cad(const MeshProblem& problem) {
   check_for_cad(problem.surface);
@@ -289,6 +309,8 @@ SurfaceModel make_surface(const MeshProblem& problem, const std::vector<FeatureB
                           std::shared_ptr<const SurfaceModel>& cad) {
   return located(problem.where, [&] {
     const auto* triangles = std::get_if<TriangleModel>(&problem.model);
+    if (const auto* planar = std::get_if<PlanarModel>(&problem.model); planar && !cad)
+      cad = std::make_shared<SurfaceModel>(make_flat(problem, *planar));
     if (triangles == nullptr && !cad) cad = std::make_shared<SurfaceModel>(make_from_cad(problem));
     SurfaceModel model =
         triangles != nullptr ? make_surface(problem, *triangles, kept) : make_compounds(problem, kept, *cad);
@@ -339,7 +361,9 @@ std::vector<char> curves_that_stay(const MeshProblem& problem, const std::vector
 SurfaceModel join_curves(const MeshProblem& problem, const SizeField& size, SurfaceModel model,
                          double least) {
   const std::optional<double> tolerance = problem.surface.simplify;
-  if (tolerance == 0 || model.corners.empty() || !problem.periodic.empty() || !problem.mapped.corners.empty())
+  // Outlines were simplified before.
+  if (std::holds_alternative<PlanarModel>(problem.model) || tolerance == 0 || model.corners.empty() ||
+      !problem.periodic.empty() || !problem.mapped.corners.empty())
     return model;
   if (tolerance) {
     const std::vector<char> kept = curves_that_stay(problem, model.fine.curves, false);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/segment.h"
+#include "base/sort_unique.h"
 #include "features/symmetry/mirrored_surface.h"
 #include "geometry/mesh/keep_elements.h"
 
@@ -22,11 +23,7 @@ std::array<int, N> image_of(std::array<int, N> element, const std::vector<int>& 
 class MeshMirror {
  public:
   MeshMirror(const MirroredSurface& mirrored, Mesh part, std::size_t n_first)
-      : m_(mirrored),
-        mesh_(std::move(part)),
-        planes_(m_.node_planes),
-        first_cut_(m_.first_cut),
-        is_first_(mesh_.quads.size(), 0) {
+      : m_(mirrored), mesh_(std::move(part)), planes_(m_.node_planes), is_first_(mesh_.quads.size(), 0) {
     std::fill_n(is_first_.begin(), n_first, 1);
     planes_.resize(mesh_.points.size(), 0);
     const auto put_in_plane = [&](const auto& elements, const std::vector<int>& regions) {
@@ -108,9 +105,7 @@ class MeshMirror {
   }
 
   int image_curve(int plane, int curve, const std::array<int, 2>& line) {
-    if (curve >= first_cut_) return curve + (1 << plane);
-    const std::vector<int>& among = m_.matches[plane].curves[curve];
-    if (among.empty()) return curve;
+    const std::vector<int> among = image_curves(m_, 1 << plane, curve);
     if (among.size() == 1) return among[0];
     // A curve of the whole has several images where ends of others on it have none.
     if (lines_of_.empty()) {
@@ -145,9 +140,8 @@ class MeshMirror {
 
   const MirroredSurface& m_;
   Mesh mesh_;
-  std::vector<int> planes_;       // of each node
-  std::vector<int> line_planes_;  // of each line
-  int first_cut_;
+  std::vector<int> planes_;                                // of each node
+  std::vector<int> line_planes_;                           // of each line
   std::vector<char> is_first_;                             // of each quad
   std::vector<std::vector<std::array<int, 2>>> lines_of_;  // of each curve of the whole
 };
@@ -158,6 +152,28 @@ int image_face(const MirroredSurface& mirrored, int planes, int face) {
   for (int k = 0; k < mirrored.planes.count(); ++k)
     if (planes >> k & 1) face = mirrored.matches[k].face[face];
   return face;
+}
+
+std::vector<int> image_curves(const MirroredSurface& mirrored, int planes, int curve) {
+  if (curve >= mirrored.first_cut) return {curve + planes};
+  std::vector<int> curves{curve};
+  for (int k = 0; k < mirrored.planes.count(); ++k) {
+    if (!(planes >> k & 1)) continue;
+    std::vector<int> images;
+    for (const int c : curves) {
+      const std::vector<int>& of = mirrored.matches[k].curves[c];
+      images.insert(images.end(), of.begin(), of.end());
+      if (of.empty()) images.push_back(c);
+    }
+    sort_unique(images);
+    curves = std::move(images);
+  }
+  return curves;
+}
+
+Vec3 image_node(const MirroredSurface& mirrored, int planes, int node, const Vec3& x) {
+  const int on = mirrored.node_planes[node];
+  return mirrored.planes.reflect_all(planes & ~on, mirrored.planes.put_on_all(on, x));
 }
 
 std::vector<char> with_images(const MirroredSurface& mirrored, std::vector<char> faces) {

@@ -11,6 +11,7 @@
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/keep_elements.h"
+#include "geometry/mesh/model_kind.h"
 #include "geometry/surface/curve_chains.h"
 
 namespace delquad {
@@ -119,11 +120,14 @@ class DivisionSharing {
 
 std::optional<CutSurface> cut_at_planes(const MeshProblem& problem, SurfaceModel& model,
                                         std::shared_ptr<const SizeField>& size) {
-  const SymmetrySpec& spec = problem.symmetry;
+  SymmetrySpec spec = problem.symmetry;
   if (!spec.automatic && spec.planes.empty()) return std::nullopt;
   if (!problem.periodic.empty())
     throw InputError(spec.where + ": symmetry does not go with periodic sides: expected one of these");
-  auto [given, matches] = find_symmetry_planes(spec, model, false, model.warnings);
+  const bool is_flat = kind_of(problem.model).in_plane;
+  for (SymmetryPlane& p : spec.planes)
+    if (is_flat) p.point.z = p.normal.z = 0;
+  auto [given, matches] = find_symmetry_planes(spec, model, is_flat, model.warnings);
   if (given.empty()) return std::nullopt;
   const SymmetryPlanes planes(given);
   drop_loose_seams(model, matches);

@@ -84,6 +84,12 @@ void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p);
 /// Returns the image of a face of the whole at all planes whose bits are set.
 int image_face(const MirroredSurface& mirrored, int planes, int face);
 
+/// Returns the curves of the whole that have the image of a curve of it at all planes whose bits are set.
+std::vector<int> image_curves(const MirroredSurface& mirrored, int planes, int curve);
+
+/// Returns the image of a node on curves of the part, which lies on its planes.
+Vec3 image_node(const MirroredSurface& mirrored, int planes, int node, const Vec3& x);
+
 /// Returns the marked faces and all their images.
 std::vector<char> with_images(const MirroredSurface& mirrored, std::vector<char> faces);
 

@@ -11,8 +11,8 @@
 
 #include "base/text.h"
 #include "delquad/error.h"
+#include "features/curves/flat_model.h"
 #include "features/divisions/divisions.h"
-#include "features/symmetry/flat_model.h"
 #include "features/symmetry/mirror_match.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/loops_apart.h"

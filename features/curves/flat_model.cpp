@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/curves/flat_model.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "base/box_tree.h"
+#include "features/curves/mesh_planar_curves.h"
+#include "geometry/mesh/constrained_delaunay.h"
+#include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
+#include "geometry/planar/curve_span.h"
+#include "geometry/planar/model_chain.h"
+#include "geometry/surface/curve_chains.h"
+
+namespace delquad {
+namespace {
+
+/// Where a planar curve turns by more, its point counts as a corner.
+constexpr double kTurn = 30 * std::numbers::pi / 180;
+
+class FlatProjector final : public SurfaceProjector {
+ public:
+  FlatProjector(const PlanarDomain& domain, const Mesh& fine)
+      : triangles_(fine.points, fine.triangles), rounding_(1e-12 * diagonal(fine)), pieces_(domain.pieces) {
+    std::vector<Box<Vec2>> boxes;
+    for (const DomainPiece& piece : pieces_) {
+      spans_.emplace_back(*piece.shape, piece.from, piece.to);
+      boxes.push_back(spans_.back().box());
+    }
+    tree_ = BoxTree<Vec2>(boxes);
+  }
+  Vec3 to_face(int, const Vec3& x) const override {
+    return triangles_.find(x).distance <= rounding_ ? x : to_curve(0, x);
+  }
+  Vec3 to_curve(int, const Vec3& x) const override {
+    Vec2 at{x.x, x.y};
+    double best2 = std::numeric_limits<double>::infinity();
+    tree_.nearest(Vec2{x.x, x.y}, best2, [&](int i) {
+      const CurveSpan::Place place = spans_[i].nearest({x.x, x.y});
+      if (place.distance * place.distance < best2) best2 = place.distance * place.distance, at = place.at;
+    });
+    return {at.x, at.y, x.z};
+  }
+
+ private:
+  NearestTriangle triangles_;
+  double rounding_;
+  std::vector<DomainPiece> pieces_;  ///< keep their shapes
+  std::vector<CurveSpan> spans_;
+  BoxTree<Vec2> tree_;
+};
+
+}  // namespace
+
+SurfaceModel flat_model(const PlanarDomain& domain, const std::string& source) {
+  SurfaceModel model;
+  model.source = source;
+  model.fine = domain.boundary;
+  for (std::size_t p = 0; p < domain.patches.size(); ++p) {
+    const auto& node = domain.patches[p].point_node;
+    for (const auto& [a, b, c] : constrained_delaunay(domain.patches[p]).triangles) {
+      if (node[a] == node[b] || node[b] == node[c] || node[c] == node[a]) continue;  // at openings
+      model.fine.triangles.push_back({node[a], node[b], node[c]});
+      model.fine.triangle_region.push_back(domain.patch_region[p]);
+    }
+  }
+  const Mesh& mesh = model.fine;
+  std::vector<char> corner(mesh.points.size(), 0);
+  mark_turns(mesh, kTurn, std::vector<char>(mesh.points.size(), 1), corner);
+  std::vector<int> curve_at(mesh.points.size(), -1);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    for (const int v : mesh.lines[l]) {
+      if (curve_at[v] >= 0 && curve_at[v] != mesh.line_curve[l]) corner[v] = 1;
+      curve_at[v] = mesh.line_curve[l];
+    }
+  for (std::size_t v = 0; v < corner.size(); ++v)
+    if (corner[v]) model.corners.push_back(static_cast<int>(v));
+  return model;
+}
+
+std::shared_ptr<const SurfaceProjector> flat_projector(const PlanarDomain& domain, const Mesh& fine) {
+  return std::make_shared<FlatProjector>(domain, fine);
+}
+
+namespace {
+
+/// The faces and curves of a flat surface.
+class FlatGeometry final : public SurfaceProjector {
+ public:
+  /// `piece_curves` has the curve of the domain on which each piece lies (-1: none), `of` the same for each
+  /// curve.
+  FlatGeometry(std::vector<DomainPiece> pieces, const std::vector<int>& piece_curves, std::vector<int> of)
+      : pieces_(std::move(pieces)), of_(std::move(of)), spans_(*std::ranges::max_element(of_) + 1) {
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      if (const int curve = piece_curves[i]; curve >= 0)
+        spans_[curve].emplace_back(*pieces_[i].shape, pieces_[i].from, pieces_[i].to);
+  }
+  Vec3 to_face(int, const Vec3& x) const override { return {x.x, x.y, 0}; }
+  Vec3 to_curve(int curve, const Vec3& x) const override {
+    CurveSpan::Place best{0, {x.x, x.y}, std::numeric_limits<double>::infinity()};
+    for (const CurveSpan& span : spans_[of_[curve]]) {
+      if (!(span.box().distance2({x.x, x.y}) < best.distance * best.distance)) continue;
+      const CurveSpan::Place place = span.nearest({x.x, x.y});
+      if (place.distance < best.distance) best = place;
+    }
+    return {best.at.x, best.at.y, 0};
+  }
+  PrincipalCurvatures curvatures(int, const Vec3&) const override { return {0, 0, {1, 0, 0}}; }
+
+ private:
+  std::vector<DomainPiece> pieces_;  ///< keep their shapes
+  std::vector<int> of_;
+  std::vector<std::vector<CurveSpan>> spans_;
+};
+
+/// Takes the points that lie on no curve out of a model, as lines of one point.
+std::vector<LooseLine> take_single_points(PlanarModel& model) {
+  const ModelChain chain = chain_model(model);
+  std::vector<char> on_curve(chain.nodes.size(), 0);
+  for (const auto& ends : chain.curve_ends)
+    for (const int v : ends) on_curve[v] = 1;
+  for (const auto& stops : chain.stops)
+    for (const CurveStop& stop : stops) on_curve[stop.node] = 1;
+  std::vector<LooseLine> loose;
+  std::vector<ModelPoint> kept;
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    ModelPoint& point = model.points[i];
+    if (on_curve[chain.point_nodes[i]]) {
+      kept.push_back(std::move(point));
+      continue;
+    }
+    LooseLine& line = loose.emplace_back();
+    line.points = {{point.at.x, point.at.y, 0}};
+    if (!point.name.empty()) line.names = {point.name};
+    line.where = model.source + (model.source.empty() ? "" : ": ") + point_label(model, static_cast<int>(i));
+    line.is_requested = true;
+  }
+  model.points = std::move(kept);
+  return loose;
+}
+
+}  // namespace
+
+SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
+  PlanarModel plain = given;
+  std::vector<LooseLine> loose = take_single_points(plain);
+  for (ModelCurve& curve : plain.curves) curve.is_crack = false;
+  const PlanarDomain domain = make_domain(plain, size);
+  SurfaceModel model = flat_model(domain, given.source);
+  model.loose = std::move(loose);
+  Mesh& mesh = model.fine;
+  std::vector<char> corner(mesh.points.size(), 0);
+  std::vector<int> piece_curves;
+  std::map<std::pair<int, int>, int> curve_of_line;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    curve_of_line[std::minmax(mesh.lines[l][0], mesh.lines[l][1])] = mesh.line_curve[l];
+  for (const DomainPiece& piece : domain.pieces) {
+    for (const int end : piece.ends) corner[end] = 1;
+    const int next = piece.nodes.empty() ? piece.ends[1] : piece.nodes[0];
+    const auto line = curve_of_line.find(std::minmax(piece.ends[0], next));
+    piece_curves.push_back(line == curve_of_line.end() ? -1 : line->second);
+  }
+  for (const NamedPoint& point : mesh.named_points) corner[point.point] = 1;
+  const std::vector<int> before = mesh.line_curve;
+  std::vector<int> of_curve;
+  for (const auto& lines : chain_lines(model, before, corner)) of_curve.push_back(before[lines[0]]);
+  mesh.curves = entities_of_pieces(mesh.curves, of_curve);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
+    const int curve = mesh.line_curve[l];
+    if (l > 0 && mesh.line_curve[l - 1] == curve) continue;
+    const auto beside = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]);
+    if (beside.size() != 2) continue;
+    const int face = region_of(mesh, beside[0].element);
+    if (region_of(mesh, beside[1].element) != face) continue;
+    const auto& of_model = domain.model_curves[of_curve[curve]];
+    const bool is_crack = std::ranges::any_of(of_model, [&](int c) { return given.curves[c].is_crack; });
+    model.embedded.push_back({curve, face, false, is_crack});
+  }
+  model.projector = std::make_shared<FlatGeometry>(domain.pieces, piece_curves, std::move(of_curve));
+  return model;
+}
+
+}  // namespace delquad
