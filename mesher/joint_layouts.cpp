@@ -27,8 +27,7 @@ std::vector<char> patches_that_may_change(const MeshingSetup& prepared, const Pi
   std::vector<char> may(prepared.patches.size(), 1);
   for (std::size_t i = 0; i < may.size(); ++i) {
     const PatchSetup& patch = prepared.patches[i];
-    if (!state.reasons[i].empty() || patch.image || patch.given_stays || (patch.grid && patch.grid_stays))
-      may[i] = 0;
+    if (!state.reasons[i].empty() || patch.given_stays || (patch.grid && patch.grid_stays)) may[i] = 0;
   }
   const SurfaceDomain& domain = prepared.surface->domain;
   for (const PatchCap& cap : domain.caps) may[cap.patch] = 0;

@@ -114,10 +114,6 @@ void turn(const MeshProblem& problem, PlanarDomain& domain, std::vector<QuadPatc
   p.plane.background = std::make_shared<BackgroundMesh>(domain.patches);
   for (auto* size : {&p.size.field, &p.size.asked, &p.size.curved})
     if (*size) *size = rotated(std::move(*size), rotation);
-  for (PatchImage& image : domain.images)
-    image.motion = [motion = std::move(image.motion), rotation](Vec2 x) {
-      return rotation(motion(rotation.back(x)));
-    };
 }
 
 class PlanarSteps final : public ModelSteps {
@@ -186,7 +182,6 @@ class PlanarSteps final : public ModelSteps {
       const std::vector<char> none(p.boundary.regions.size(), 0);
       p.given_worst = worst_of_given(assemble(p, p.boundary.points, given, none), true, *p.size.field);
     }
-    for (PatchImage& image : domain_.images) p.patches[image.patch].image = std::move(image);
     if (problem_.cross.kind == CrossKind::kSizeAware) make_crosses_size_aware(p);
     if (problem_.cross.kind == CrossKind::kMade) use_made_crosses(problem_.cross, p);
     if (problem_.cross.kind == CrossKind::kMetric)

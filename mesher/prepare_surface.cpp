@@ -402,7 +402,7 @@ class SurfaceSteps final : public ModelSteps {
     const auto before = has_rows ? std::optional(surface_->domain) : std::nullopt;
     std::vector<LocalSize> fine;
     try {
-      fine = put_layers(layers_, problem_.mapped, model_, surface_->domain, p);
+      fine = put_layers(layers_, problem_.mapped, model_, cut_ ? &cut_->half : nullptr, surface_->domain, p);
     } catch (const InputError& error) {
       if (!has_rows) throw;
       p.warnings.push_back(

@@ -13,7 +13,6 @@
 #include "features/given/given_domain.h"
 #include "features/grids/mapped_grid.h"
 #include "features/layers/add_layers.h"
-#include "features/symmetry/planar_symmetry.h"
 #include "mesher/finish_steps.h"
 #include "mesher/runner.h"
 
@@ -181,7 +180,7 @@ std::vector<char> unedited_patches(const MeshingSetup& prepared, const PipelineS
   std::vector<char> left_out;
   for (std::size_t i = 0; i < state.patches.size(); ++i) {
     const PatchSetup& patch = prepared.patches[i];
-    left_out.push_back(!state.reasons[i].empty() || patch.grid || patch.image || patch.given_stays);
+    left_out.push_back(!state.reasons[i].empty() || patch.grid || patch.given_stays);
   }
   return left_out;
 }
@@ -212,7 +211,6 @@ void run_on_patches(const Stage& stage, const MeshingSetup& prepared, PipelineSt
         std::string& reason = state.reasons[i];
         const FaceScope face = patch_scope(prepared, i);
         patches[i].inside.clear();
-        if (prepared.patches[i].image) return;
         if (prepared.patches[i].given_stays) {
           if (patches[i].form != stage.to) patches[i] = initial_mesh(stage, prepared, prepared.patches[i]);
           return;
@@ -242,19 +240,12 @@ void run_on_all(const Stage& stage, const MeshingSetup& prepared, PipelineState&
     std::vector<char> held = unedited_patches(prepared, state);
     // Stages that move points of quads also move points of grids that need not stay.
     for (std::size_t i = 0; stage.from == PatchForm::kQuads && i < held.size(); ++i)
-      if (const PatchSetup& patch = prepared.patches[i]; patch.grid && !patch.grid_stays && !patch.image)
-        held[i] = 0;
+      if (const PatchSetup& patch = prepared.patches[i]; patch.grid && !patch.grid_stays) held[i] = 0;
     stage.finish({prepared, prepared.settings.options, patches, held, state.nodes, !state.given.empty()},
                  state.log);
     for (std::size_t i = 0; i < held.size(); ++i)
       if (!held[i]) check_stage_result(stage, prepared.patches[i].boundary, patches[i], true);
   }
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    if (const auto& image = prepared.patches[i].image) {
-      patches[i] = image_of(patches[image->master], prepared.patches[i].boundary, *image);
-      move_image_nodes(prepared, *image, state.nodes.points);
-      state.reasons[i] = state.reasons[image->master];
-    }
 }
 
 }  // namespace

@@ -52,9 +52,9 @@ void check_count(double quads, const MeshProblem& problem);
 /// Returns whether planes of symmetry are given or sought.
 bool is_symmetric(const MeshProblem& problem);
 
-/// Returns the domain of a planar model of curves, meshed by its size, which is composed meanwhile. p.size,
-/// p.symmetry and p.plane.background belong to the domain. Sizes are smaller at `spots`, see RetryHints.
-/// Throws InputError as make_domain().
+/// Returns the domain of a planar model of curves, meshed by its size, which is composed meanwhile. p.size
+/// and p.plane.background belong to the domain. Sizes are smaller at `spots`, see RetryHints. Throws
+/// InputError as make_domain().
 PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
                           const std::vector<SizeBall>& spots, const CurveAgreement& agreement,
                           MeshingSetup& p);

@@ -7,11 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include "base/box_tree.h"
 #include "features/curves/mesh_planar_curves.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/mesh/half_edges.h"
-#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/model_chain.h"
 #include "geometry/surface/curve_chains.h"
@@ -21,38 +19,6 @@ namespace {
 
 /// Where a planar curve turns by more, its point counts as a corner.
 constexpr double kTurn = 30 * std::numbers::pi / 180;
-
-class FlatProjector final : public SurfaceProjector {
- public:
-  FlatProjector(const PlanarDomain& domain, const Mesh& fine)
-      : triangles_(fine.points, fine.triangles), rounding_(1e-12 * diagonal(fine)), pieces_(domain.pieces) {
-    std::vector<Box<Vec2>> boxes;
-    for (const DomainPiece& piece : pieces_) {
-      spans_.emplace_back(*piece.shape, piece.from, piece.to);
-      boxes.push_back(spans_.back().box());
-    }
-    tree_ = BoxTree<Vec2>(boxes);
-  }
-  Vec3 to_face(int, const Vec3& x) const override {
-    return triangles_.find(x).distance <= rounding_ ? x : to_curve(0, x);
-  }
-  Vec3 to_curve(int, const Vec3& x) const override {
-    Vec2 at{x.x, x.y};
-    double best2 = std::numeric_limits<double>::infinity();
-    tree_.nearest(Vec2{x.x, x.y}, best2, [&](int i) {
-      const CurveSpan::Place place = spans_[i].nearest({x.x, x.y});
-      if (place.distance * place.distance < best2) best2 = place.distance * place.distance, at = place.at;
-    });
-    return {at.x, at.y, x.z};
-  }
-
- private:
-  NearestTriangle triangles_;
-  double rounding_;
-  std::vector<DomainPiece> pieces_;  ///< keep their shapes
-  std::vector<CurveSpan> spans_;
-  BoxTree<Vec2> tree_;
-};
 
 }  // namespace
 
@@ -80,10 +46,6 @@ SurfaceModel flat_model(const PlanarDomain& domain, const std::string& source) {
   for (std::size_t v = 0; v < corner.size(); ++v)
     if (corner[v]) model.corners.push_back(static_cast<int>(v));
   return model;
-}
-
-std::shared_ptr<const SurfaceProjector> flat_projector(const PlanarDomain& domain, const Mesh& fine) {
-  return std::make_shared<FlatProjector>(domain, fine);
 }
 
 namespace {

@@ -16,9 +16,6 @@ namespace delquad {
 /// Returns the regions of a domain, triangulated between the points of their boundary.
 SurfaceModel flat_model(const PlanarDomain& domain, const std::string& source);
 
-/// Returns the true curves of a domain, at which its faces end. All of them are one to SurfaceProjector.
-std::shared_ptr<const SurfaceProjector> flat_projector(const PlanarDomain& domain, const Mesh& fine);
-
 /// Returns a planar model as a surface in z = 0, with a flat face for each region and the model's curves as
 /// true geometry. The curves' chords are as long as `size`, at most. A curve of the model that others meet
 /// becomes several curves with its names; all compulsory nodes of the model are corners. Single points inside

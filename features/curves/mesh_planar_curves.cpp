@@ -23,7 +23,6 @@
 #include "features/embedded/embedded_pieces.h"
 #include "features/grids/grids.h"
 #include "features/periodic/periodic.h"
-#include "features/symmetry/planar_symmetry.h"
 #include "geometry/patches/across_view.h"
 #include "geometry/patches/even_counts.h"
 #include "geometry/planar/curve_pieces.h"
@@ -59,9 +58,6 @@ class PieceCounts {
       for (const auto& loop : flat_.curves.outlines[p])
         for (const CurveSide& side : loop)
           if (side.begins(flat_.curves.chains[side.chain])) around.push_back(side);
-      // The patches of mirror images have the numbers of their masters.
-      if (std::ranges::any_of(around, [&](const CurveSide& s) { return pieces[s.chain].is_mirrored; }))
-        continue;
       for (const CurveSide& side : around) {
         std::vector<int>& patches = wanted_.demands[side.chain].patches;
         patches.insert(side.forward ? patches.begin() : patches.end(), static_cast<int>(p));
@@ -170,8 +166,7 @@ class PieceCounts {
 
 class CurveMesher {
  public:
-  CurveMesher(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options,
-              const Symmetry* symmetry = nullptr)
+  CurveMesher(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options)
       : model_(model),
         mapped_spec_(options.mapped),
         narrow_grids_(options.narrow_grids),
@@ -180,7 +175,6 @@ class CurveMesher {
         size_(size),
         chain_(chain_model(model)),
         pieces_(cut_curves(model, chain_)) {
-    if (symmetry != nullptr) first_axis_ = static_cast<int>(model.curves.size()) - symmetry->count();
     measure(options.max_edges);
     name_curves();
     set_least();
@@ -189,15 +183,8 @@ class CurveMesher {
       if (!p.is_divided) p.set_edges(std::max(p.least, static_cast<int>(std::lround(p.measure->integral()))));
     if (!options.periodic.empty())
       images_ = pair_pieces(model_, options.periodic, mesh(), node_chains(), chain_, pieces_);
-    if (symmetry != nullptr) {
-      drop_axes_outside(mesh(), first_axis_, chain_, pieces_);
-      images_ = pair_symmetric(model_, *symmetry, options.symmetry.where, chain_, pieces_);
-    }
     follow_masters(model_, images_, pieces_);
-    const auto fold = [&](Vec2 at, Vec2 x) {
-      return symmetry != nullptr ? symmetry->reflect(symmetry->folds_of(at), x) : x;
-    };
-    add_dangling_edges(model_, size, mesh(), fold, chain_, pieces_);
+    add_dangling_edges(model_, size, mesh(), chain_, pieces_);
     make_even();
     follow_masters(model_, images_, pieces_);
   }
@@ -239,15 +226,13 @@ class CurveMesher {
   /// Regions, patches and places of the meshed curves.
   PlanarDomain domain() const {
     Mesh lines = mesh();
-    if (const bool is_symmetric = first_axis_ < static_cast<int>(model_.curves.size()); !is_symmetric) {
-      std::vector<ChainPair> by_piece = images_;
-      std::ranges::sort(by_piece, {}, &ChainPair::chain);
-      add_pairs_of_chains(node_chains(), by_piece, lines.periodic);
-    }
+    std::vector<ChainPair> by_piece = images_;
+    std::ranges::sort(by_piece, {}, &ChainPair::chain);
+    add_pairs_of_chains(node_chains(), by_piece, lines.periodic);
     const BoundaryNames names = this->names();
     const Arrangement arrangement = arrange_lines(lines, names);
     FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
-    check_embedded(model_, chain_, pieces_, first_axis_, lines, arrangement, regions);
+    check_embedded(model_, chain_, pieces_, lines, arrangement, regions);
     std::vector<MappedPatch> mapped =
         mapped_patches(mapped_, counts_->curves(), pieces_, arrangement, regions);
     PlanarDomain domain = build_domain(std::move(lines), arrangement, std::move(regions), names,
@@ -261,7 +246,6 @@ class CurveMesher {
     domain.model_curves.resize(domain.boundary.curves.size());
     domain.mapped = std::move(mapped);
     if (domain.has_junctions) drop_stray_lines(domain);
-    drop_axes(first_axis_, domain);
     for (const auto& curves : domain.model_curves) domain.curve_shapes.push_back(shapes_of(curves));
     return domain;
   }
@@ -442,33 +426,21 @@ class CurveMesher {
   std::vector<ChainPair> images_;
   std::optional<PieceCounts> counts_;
   std::vector<MappedFace> mapped_;
-  int first_axis_ = std::numeric_limits<int>::max();  ///< from it on curves of the model are axes
-  std::vector<Entity> curves_;                        ///< of the mesh
-  std::vector<std::vector<int>> of_curve_;            ///< the model's curves of each
+  std::vector<Entity> curves_;              ///< of the mesh
+  std::vector<std::vector<int>> of_curve_;  ///< the model's curves of each
 };
-
-PlanarDomain mesh_curves(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options) {
-  if (options.symmetry.planes.empty()) return CurveMesher(model, size, options).domain();
-  const Symmetry symmetry(options.symmetry.planes, model);
-  const PlanarModel whole = with_axes(model, symmetry);
-  PlanarDomain domain = CurveMesher(whole, size, options, &symmetry).domain();
-  const int n_points = static_cast<int>(model.points.size());
-  std::erase_if(domain.boundary.named_points, [&](const NamedPoint& p) { return p.entity.tag > n_points; });
-  domain.images = patch_images(domain.patches, symmetry, options.symmetry.where);
-  return domain;
-}
 
 }  // namespace
 
 PlanarDomain make_domain(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options) {
   if (options.agreement.price > 0) try {
-      return mesh_curves(model, size, options);
+      return CurveMesher(model, size, options).domain();
     } catch (const InputError&) {
       // Numbers that agree may keep curves apart no longer.
     }
   CurveMeshOptions by_size = options;
   by_size.agreement.price = 0;
-  return mesh_curves(model, size, by_size);
+  return CurveMesher(model, size, by_size).domain();
 }
 
 }  // namespace delquad

@@ -18,7 +18,6 @@
 #include "features/sizes/fine_spots.h"
 #include "features/sizes/named_parts.h"
 #include "features/sizes/size_warnings.h"
-#include "features/symmetry/planar_symmetry.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "features/thin/gap_sizes.h"
 #include "geometry/planar/model_chain.h"
@@ -84,20 +83,6 @@ std::vector<LocalSize> fine_spots(const MeshProblem& problem, const std::vector<
   return fine;
 }
 
-/// Planes that are given or found, by edges that are short enough to keep curves apart.
-std::vector<SymmetryPlane> planes_of(const MeshProblem& problem, const PlanarModel& model,
-                                     std::vector<Warning>& warnings) {
-  constexpr double kLongest = 1.0 / 200, kShortest = 1e-5, kShorter = 1.0 / 8;  // in diagonals
-  if (!is_symmetric(problem)) return {};
-  PlanarDomain domain;
-  for (double edge = kLongest; domain.patches.empty(); edge *= kShorter) try {
-      domain = make_domain(model, *make_constant_size(edge * diagonal_of(model)));
-    } catch (const InputError&) {
-      if (edge < kShortest) throw;
-    }
-  return find_symmetry(model, domain, problem.symmetry, warnings);
-}
-
 /// A model whose curves are meshed as often as a decision on their size depends on how they were.
 class SizedModel {
  public:
@@ -118,7 +103,6 @@ class SizedModel {
     options.periodic = problem_.periodic;
     options.mapped = problem_.mapped;
     options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
-    options.symmetry = {planes, false, problem_.symmetry.where};
     options.agreement = agreement_;
     auto on_curves = p_.size.field;
     if (problem_.seed != 0) on_curves = jittered(std::move(on_curves), problem_.seed, diagonal_of(model_));
@@ -126,7 +110,6 @@ class SizedModel {
   }
 
   PlanarDomain domain;
-  std::vector<SymmetryPlane> planes;  ///< of symmetry
 
  private:
   const MeshProblem& problem_;
@@ -153,23 +136,18 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   SizedModel sized(problem, model, agreement, p);
   const PlanarDomain& domain = sized.domain;
   size.field = planar_base_size(spec, model, p.warnings);
-  sized.planes = planes_of(problem, model, p.warnings);
-  p.symmetry = SymmetryPlanes(sized.planes).all();
-  const auto with_images = [&](std::shared_ptr<const SizeField> field) {
-    return p.symmetry.empty() ? field : least_of_images(std::move(field), SymmetryPlanes(p.symmetry));
-  };
-  const std::shared_ptr<const SizeField> base = with_images(size.field);
+  const std::shared_ptr<const SizeField> base = size.field;
   sized.mesh_by(base);
   // The regions are as their curves are meshed: the second time by sizes that are nearly those wanted.
   for (int round = 0; round < 2 && !spec.named.empty(); ++round) {
     const NamedParts parts(model, domain);
     if (round == 0) warn_of_ineffective_sizes(spec.named, parts, *base, p.warnings);
-    sized.mesh_by(with_images(finer_near(base, parts.spots(spec.named))));
+    sized.mesh_by(finer_near(base, parts.spots(spec.named)));
   }
   if (const auto turns = curvature_spots(model, domain, spec, *base); !turns.empty()) {
     size.asked = size.field;
     size.adapted_to.push_back("curvature");
-    sized.mesh_by(with_images(finer_near(size.field, turns)));
+    sized.mesh_by(finer_near(size.field, turns));
   }
   // Sizes grow along the background mesh of the curves' edges.
   if (spec.gradation > 0) {
@@ -181,7 +159,7 @@ PlanarDomain mesh_by_size(const MeshProblem& problem, const PlanarModel& model,
   if (const auto fans = fan_spots(domain, problem.layers); !fans.empty()) {
     if (!size.asked) size.asked = size.field;
     size.adapted_to.push_back("fans of layers");
-    sized.mesh_by(with_images(finer_near(size.field, fans)));
+    sized.mesh_by(finer_near(size.field, fans));
   }
   // Sizes beside divided curves are the lengths of their edges.
   if (!problem.divisions.empty()) {

@@ -14,20 +14,18 @@ bool is_crack(const PlanarModel& model, const std::vector<int>& curves) {
   return std::ranges::any_of(curves, [&](int c) { return model.curves[c].is_crack; });
 }
 
-void add_dangling_edges(const PlanarModel& model, const SizeField& size, const Mesh& lines,
-                        const std::function<Vec2(Vec2, Vec2)>& fold, ModelChain& chain,
+void add_dangling_edges(const PlanarModel& model, const SizeField& size, const Mesh& lines, ModelChain& chain,
                         std::vector<CurvePiece>& pieces) {
   std::vector<char> has_piece(chain.nodes.size(), 0);
   for (const CurvePiece& p : pieces)
     for (const int v : p.ends) has_piece[v] = 1;
-  std::vector<int> nodes, images, points;
+  std::vector<int> nodes, points;
   for (std::size_t i = 0; i < model.points.size(); ++i) {
     const int v = chain.point_nodes[i];
     if (has_piece[v]) continue;
     has_piece[v] = 1;
-    const bool is_image = !(fold(chain.nodes[v], chain.nodes[v]) == chain.nodes[v]);
-    (is_image ? images : nodes).push_back(v);
-    if (!is_image) points.push_back(static_cast<int>(i));
+    nodes.push_back(v);
+    points.push_back(static_cast<int>(i));
   }
   if (nodes.empty()) return;
   const auto ends = dangling_ends(lines, nodes, size, [&](std::size_t i) {
@@ -40,17 +38,10 @@ void add_dangling_edges(const PlanarModel& model, const SizeField& size, const M
   };
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const Vec3& end : ends[i]) add(nodes[i], {end.x, end.y});
-  for (const int v : images) {
-    const Vec2 at = chain.nodes[v], master = fold(at, at);
-    const auto next =
-        std::ranges::min_element(nodes, {}, [&](int node) { return norm(chain.nodes[node] - master); });
-    for (const Vec3& end : ends[next - nodes.begin()]) add(v, fold(at, {end.x, end.y}));
-  }
 }
 
 void check_embedded(const PlanarModel& model, const ModelChain& chain, const std::vector<CurvePiece>& pieces,
-                    int first_axis, const Mesh& lines, const Arrangement& arrangement,
-                    const FaceRegions& regions) {
+                    const Mesh& lines, const Arrangement& arrangement, const FaceRegions& regions) {
   const auto loops = loops_of_model_curves(model, chain);
   const auto is_filled = [&](std::size_t side) {
     const int face = arrangement.face_of[side];
@@ -68,8 +59,7 @@ void check_embedded(const PlanarModel& model, const ModelChain& chain, const std
           fmt::format("{}{} at ({:.10g}, {:.10g}) lies outside of every region [embedded-outside]",
                       message_prefix(model), point_label(model, static_cast<int>(at)), a.x, a.y));
     }
-    const auto embedded =
-        std::ranges::find_if(piece.curves, [&](int c) { return loops[c].empty() && c < first_axis; });
+    const auto embedded = std::ranges::find_if(piece.curves, [&](int c) { return loops[c].empty(); });
     const auto bounding = std::ranges::find_if(piece.curves, [&](int c) { return !loops[c].empty(); });
     if (embedded != piece.curves.end() && !is_filled(2 * line) && !is_filled(2 * line + 1))
       throw InputError(

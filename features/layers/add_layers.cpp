@@ -20,149 +20,6 @@
 namespace delquad {
 namespace {
 
-/// The curve of the edge from each node to the next.
-std::map<std::pair<int, int>, int> curves_of_edges(const PatchBoundary& patch) {
-  std::map<std::pair<int, int>, int> curves;
-  for (std::size_t e = 0; e < patch.edges.size(); ++e)
-    curves[{patch.point_node[patch.edges[e][0]], patch.point_node[patch.edges[e][1]]}] = patch.edge_curve[e];
-  return curves;
-}
-
-class LayerMirror {
- public:
-  LayerMirror(PlanarDomain& domain, std::vector<LayeredPatch>& layered) : domain_(domain), layered_(layered) {
-    for (const LayeredPatch& patch : layered)
-      for (const auto& [old, nodes] : patch.walls) add_wall(old, nodes);
-  }
-
-  void mirror(PatchImage& image) {
-    const LayeredPatch& master = layered_[image.master];
-    const PatchBoundary &old = domain_.patches[image.master], &own = domain_.patches[image.patch];
-    image_of_.clear();
-    curves_.clear();
-    const std::map<std::pair<int, int>, int> own_curves = curves_of_edges(own);
-    const auto own_curve = [&](int a, int b) {
-      return own_curves.at(image.is_mirrored ? std::pair(b, a) : std::pair(a, b));
-    };
-    for (std::size_t i = 0; i < image.point.size(); ++i)
-      image_of_[old.point_node[i]] = own.point_node[image.point[i]];
-    for (std::size_t e = 0; e < old.edges.size(); ++e) {
-      const int a = old.point_node[old.edges[e][0]], b = old.point_node[old.edges[e][1]];
-      curves_[{a, b}] = own_curve(image_of_.at(a), image_of_.at(b));
-    }
-    LayeredPatch& result = layered_[image.patch];
-    for (const auto& [from, nodes] : master.walls) {
-      std::vector<int> to;
-      for (const int v : from) to.push_back(image_of_.at(v));
-      const auto known = walls_.find({to[0], to[1]});
-      for (std::size_t i = 1; i + 1 < nodes.size(); ++i)
-        image_of_[nodes[i]] = known == walls_.end() ? add_image(nodes[i], image) : known->second[i];
-      std::vector<int> images;
-      for (const int v : nodes) images.push_back(image_of_.at(v));
-      if (known == walls_.end()) add_wall(to, images);
-      const int curve = curves_.at({from[0], from[1]});
-      for (std::size_t i = 1; i < nodes.size(); ++i) curves_[{nodes[i - 1], nodes[i]}] = curve;
-      if (image.is_mirrored) {
-        std::ranges::reverse(to);
-        std::ranges::reverse(images);
-      }
-      result.walls.emplace_back(std::move(to), std::move(images));
-    }
-    add_quads(master, image, result);
-    result.outline = boundary(master.outline, image, nullptr);
-    std::vector<int> point;
-    result.rest = boundary(master.rest, image, &point);
-    image.point = std::move(point);
-  }
-
- private:
-  void add_wall(const std::vector<int>& old, const std::vector<int>& nodes) {
-    walls_[{old[0], old[1]}] = nodes;
-    const std::size_t n = old.size();
-    walls_[{old[n - 1], old[n - 2]}] = {nodes.rbegin(), nodes.rend()};
-  }
-
-  int add_image(int node, const PatchImage& image) {
-    const Vec3& x = domain_.boundary.points[node];
-    return add_node(domain_, image.motion({x.x, x.y}));
-  }
-
-  int image_node(int node, const PatchImage& image) {
-    const auto known = image_of_.find(node);
-    if (known != image_of_.end()) return known->second;
-    return image_of_[node] = add_image(node, image);
-  }
-
-  void add_quads(const LayeredPatch& master, const PatchImage& image, LayeredPatch& result) {
-    Mesh& mesh = domain_.boundary;
-    result.quads.first = mesh.quads.size();
-    for (std::size_t q = master.quads.first; q < master.quads.second; ++q) {
-      std::array<int, 4> quad = mesh.quads[q];
-      for (int& v : quad) v = image_node(v, image);
-      if (image.is_mirrored) std::reverse(quad.begin() + 1, quad.end());
-      mesh.quads.push_back(quad);
-      mesh.quad_region.push_back(domain_.patch_region[image.patch]);
-    }
-    result.quads.second = mesh.quads.size();
-  }
-
-  /// With the points in the master's order; points of a mirror image run the other way.
-  PatchBoundary boundary(const PatchBoundary& master, const PatchImage& image, std::vector<int>* point) {
-    PatchBoundary result = master;
-    for (std::size_t i = 0; i < master.points.size(); ++i) {
-      const int node = master.point_node[i];
-      result.point_node[i] = image_node(node, image);
-      result.points[i] = image.motion(master.points[i]);
-      if (point != nullptr) point->push_back(static_cast<int>(i));
-    }
-    for (std::size_t e = 0; e < master.edges.size(); ++e) {
-      const auto [a, b] = master.edges[e];
-      const auto curve = curves_.find({master.point_node[a], master.point_node[b]});
-      result.edge_curve[e] = curve == curves_.end() ? -1 : curve->second;
-      if (image.is_mirrored) result.edges[e] = {b, a};
-    }
-    for (Vec2& seed : result.seeds) seed = image.motion(seed);
-    return result;
-  }
-
-  PlanarDomain& domain_;
-  std::vector<LayeredPatch>& layered_;
-  std::map<std::pair<int, int>, std::vector<int>> walls_;  ///< new nodes, by the first two of the old ones
-  std::map<int, int> image_of_;                            ///< of nodes, in the image at hand
-  std::map<std::pair<int, int>, int> curves_;              ///< there, by an edge of the master
-};
-
-/// Throws InputError where a curve has layers and its mirror image has none, or others.
-void check_layers_symmetric(const PlanarDomain& domain, std::span<const LayerSpec> specs,
-                            const CurveLayers& layers) {
-  for (const PatchImage& image : domain.images) {
-    const PatchBoundary &master = domain.patches[image.master], &own = domain.patches[image.patch];
-    std::vector<std::size_t> edge_at(own.points.size());
-    for (std::size_t e = 0; e < own.edges.size(); ++e) edge_at[own.edges[e][0]] = e;
-    for (std::size_t e = 0; e < master.edges.size(); ++e) {
-      const auto& [a, b] = master.edges[e];
-      const int curve = master.edge_curve[e];
-      const int other = own.edge_curve[edge_at[image.point[image.is_mirrored ? b : a]]];
-      const int one = layers.at(curve, domain.patch_region[image.master]);
-      const int two = layers.at(other, domain.patch_region[image.patch]);
-      if (one == two) continue;
-      const auto title = [&](int c) { return curve_title(domain.boundary.curves[c]); };
-      throw InputError(fmt::format(
-          "{}: {} and {} are mirror images at {} and have not the same layer: "
-          "expected it on both",
-          specs[std::max(one, two)].where, title(curve), title(other), show_point(master.points[a])));
-    }
-  }
-}
-
-/// Gives each mirror image what its master has; `layered`: by patch, empty where nothing changed. Walls on an
-/// axis are the same on both sides.
-void mirror_layers(PlanarDomain& domain, std::vector<LayeredPatch>& layered) {
-  LayerMirror mirror(domain, layered);
-  for (PatchImage& image : domain.images)
-    if (!layered[image.master].rest.points.empty()) mirror.mirror(image);
-}
-
 using ReplacedLines = std::map<std::pair<int, int>, std::vector<int>>;
 
 void check_thickness(const PlanarDomain& domain, std::span<const LayerSpec> specs,
@@ -191,8 +48,7 @@ void check_number(const std::vector<PatchLayers>& patches, std::span<const Layer
                   specs[0].where, quads, most));
 }
 
-/// `images`: how many mirror images the patch has.
-void count(const PlanarDomain& domain, const PatchLayers& patch, int images, LayerReport& result) {
+void count(const PlanarDomain& domain, const PatchLayers& patch, LayerReport& result) {
   const LayerColumns& layers = patch.columns;
   const PatchBoundary& boundary = domain.patches[patch.patch];
   std::vector<int> curve(boundary.points.size());
@@ -205,7 +61,7 @@ void count(const PlanarDomain& domain, const PatchLayers& patch, int images, Lay
       return curve_title(domain.boundary.curves[curve[chain.points[on]]]);
     };
     for (int k = 0; k < chain.n_points(); ++k) {
-      result.count.fans += (1 + images) * layers.corner(c, k).quads;
+      result.count.fans += layers.corner(c, k).quads;
       if (layers.scales[c][k] >= result.count.least_scale) continue;
       result.count.least_scale = layers.scales[c][k];
       result.least_at = show_node(domain, layers.foot_node(c, k));
@@ -214,7 +70,7 @@ void count(const PlanarDomain& domain, const PatchLayers& patch, int images, Lay
     layers.for_each_pair(c, [&](int a, int b) {
       const auto& columns = layers.columns(c);
       if (columns[a].point == columns[b].point) return;
-      result.count.columns += 1 + images;
+      ++result.count.columns;
       const int k = columns[a].at, top = layers.layers_between(c, a, b);
       const double last = layers.height(c, k, top) - layers.height(c, k, top - 1);
       const double edge = norm(layers.node(c, {a, top}) - layers.node(c, {b, top})) / layers.stretch(c, k);
@@ -305,7 +161,6 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
   for (const LayerSpec& spec : specs) heights.push_back(layer_heights(spec));
   const CurveLayers of_curves = layers_of_curves(domain, specs);
   check_thickness(domain, specs, heights);
-  check_layers_symmetric(domain, specs, of_curves);
   if (domain.in_space != nullptr) put_on_true_curves(of_curves, domain);
   const BoundaryGraph graph(domain);
   std::vector<PatchLayers> patches = find_patch_layers(domain, specs, of_curves, graph, heights);
@@ -313,17 +168,14 @@ LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, d
   LayerWalls walls(domain, patches, specs);
   fit(domain, specs, patches, walls);
   walls.count_edges();
-  std::vector<int> images(domain.patches.size(), 0);
-  for (const PatchImage& image : domain.images) ++images[image.master];
   LayerReport result;
   std::vector<LayeredPatch> layered(domain.patches.size());
   for (const PatchLayers& patch : patches) {
-    count(domain, patch, images[patch.patch], result);
+    count(domain, patch, result);
     layered[patch.patch] = build_layers(domain, patch, walls);
   }
   walls.pair_nodes();
   if (domain.in_space != nullptr) result.walls = walls.nodes();
-  mirror_layers(domain, layered);
   ReplacedLines replaced;
   for (std::size_t p = 0; p < layered.size(); ++p) {
     LayeredPatch& patch = layered[p];

@@ -18,6 +18,7 @@
 namespace delquad {
 
 struct CutSurface;
+struct SymmetricHalf;
 
 /// Extent of finished layers.
 struct LayerCount {
@@ -51,8 +52,8 @@ struct LayerReport {
 /// Adds quads to domain.boundary along the curves of the layers. It takes their area from the patches, so
 /// that the edges of the last layers become patch boundaries. domain.outlines gets the former patches. Nodes
 /// of curves on which layers end are placed again, in all patches and on periodic curves; patches then get
-/// even numbers of edges. Mirror images of patches get the layers of their masters. Throws InputError, with
-/// curve and place, for impossible layers and for more than `max_quads`. Own method.
+/// even numbers of edges. Throws InputError, with curve and place, for impossible layers and for more than
+/// `max_quads`. Own method.
 LayerReport add_layers(PlanarDomain& domain, std::span<const LayerSpec> specs, double max_quads);
 
 /// Returns spots at corners with fans whose edges are too long. Quads there would have more than 50 times the
@@ -66,9 +67,10 @@ std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const Mappe
                                   PlanarDomain& domain, MeshingSetup& p);
 
 /// Does the same for the patches of a surface. The nodes of curves that have layers, or on which layers end,
-/// stay.
+/// stay. `part`: the model is this part of a symmetric one; null: it is the whole.
 std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const MappedSpec& grids,
-                                  const SurfaceModel& model, SurfaceDomain& domain, MeshingSetup& p);
+                                  const SurfaceModel& model, const SymmetricHalf* part, SurfaceDomain& domain,
+                                  MeshingSetup& p);
 
 /// Returns layers of the part of a symmetric surface, on curves by their numbers there. Throws InputError if
 /// an image has not the same layer, and as layered_curves().

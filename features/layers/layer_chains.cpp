@@ -259,7 +259,7 @@ LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::ve
   }
   const auto edge = graph.edge_from(nodes[0], nodes[1]);
   const int curve = boundary.edge_curve[(*edge)[1]];
-  const bool is_axis = graph.is_on_axis(nodes[0], nodes[1]);
+  const bool is_axis = domain.in_space != nullptr && domain.in_space->is_axis(static_cast<int>(patch), curve);
   const auto refuse_divided = [&] {
     throw InputError(
         fmt::format("{}: the layer ends on {} at {}, of which 'divide' gives the number of edges: expected "
@@ -342,10 +342,7 @@ double WallTrack::param(double place) const {
 }
 
 BoundaryGraph::BoundaryGraph(const PlanarDomain& domain)
-    : is_image_(domain.patches.size(), 0),
-      stops_(domain.boundary.points.size(), 0),
-      on_crack_(domain.boundary.points.size(), 0) {
-  for (const PatchImage& image : domain.images) is_image_[image.patch] = 1;
+    : stops_(domain.boundary.points.size(), 0), on_crack_(domain.boundary.points.size(), 0) {
   for (const int v : domain.on_crack) on_crack_[v] = 1;
   for (std::size_t p = 0; p < domain.patches.size(); ++p) {
     const PatchBoundary& patch = domain.patches[p];
@@ -363,11 +360,6 @@ BoundaryGraph::BoundaryGraph(const PlanarDomain& domain)
 std::optional<std::array<int, 2>> BoundaryGraph::edge_from(int a, int b) const {
   const auto found = edges_.find({a, b});
   return found == edges_.end() ? std::nullopt : std::optional(found->second);
-}
-
-bool BoundaryGraph::is_on_axis(int a, int b) const {
-  const auto one = edge_from(a, b), other = edge_from(b, a);
-  return one && other && is_image((*one)[0]) != is_image((*other)[0]);
 }
 
 void BoundaryGraph::find_stops(const PlanarDomain& domain) {
@@ -400,11 +392,6 @@ void BoundaryGraph::share_stops(const PlanarDomain& domain) {
   for (int round = 0; round < 2; ++round) {
     for (const PeriodicNodes& pair : domain.boundary.periodic)
       for (const auto& [node, master] : pair.nodes) share(node, master);
-    for (const PatchImage& image : domain.images) {
-      const PatchBoundary &own = domain.patches[image.patch], &of = domain.patches[image.master];
-      for (std::size_t i = 0; i < image.point.size(); ++i)
-        share(own.point_node[image.point[i]], of.point_node[i]);
-    }
   }
 }
 

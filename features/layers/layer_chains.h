@@ -77,15 +77,11 @@ class BoundaryGraph {
  public:
   explicit BoundaryGraph(const PlanarDomain& domain);
 
-  /// Returns the patch on the left of the edge from a to b, and the index of the edge there; images of
-  /// patches count, too.
+  /// Returns the patch on the left of the edge from a to b, and the index of the edge there.
   std::optional<std::array<int, 2>> edge_from(int a, int b) const;
-  bool is_image(int patch) const { return is_image_[static_cast<std::size_t>(patch)] != 0; }
-  /// Returns whether the edge lies between a patch and its mirror image.
-  bool is_on_axis(int a, int b) const;
   /// Returns whether a piece of the boundary ends at a node. It ends at corners of more than kLayerCorner,
   /// where curves meet or change, and at named points and cracks. It also ends if one of these is true of a
-  /// periodic or mirror image.
+  /// periodic image.
   bool stops(int node) const { return stops_[static_cast<std::size_t>(node)] != 0; }
   bool is_on_crack(int node) const { return on_crack_[static_cast<std::size_t>(node)] != 0; }
   /// Returns whether more than two patches meet at the edge.
@@ -97,7 +93,7 @@ class BoundaryGraph {
 
   std::map<std::pair<int, int>, std::array<int, 2>> edges_;
   std::set<std::pair<int, int>> branching_;
-  std::vector<char> is_image_, stops_, on_crack_;
+  std::vector<char> stops_, on_crack_;
 };
 
 /// The boundary has a corner at a point where it turns by more than this, in radians.
@@ -127,10 +123,10 @@ struct LayerChain {
 /// The wall beside the end of a chain, up to the next corner: nodes at the heights of layers lie on it.
 struct LayerWall {
   std::vector<int> points;  ///< of the patch
-  int curve;                ///< index into Mesh::curves; -1: an axis of symmetry
+  int curve;                ///< index into Mesh::curves
   WallTrack track;
   std::array<int, 2> chain = {-1, -1};  ///< chains that end at its first point, and begin at its last one
-  bool is_axis = false;                 ///< a mirror image of the patch lies behind it
+  bool is_axis = false;                 ///< the mirror image of the patch lies behind it
   /// Whether layers of a patch end at its first and at its last point.
   std::array<bool, 2> is_taken = {false, false};
   int id = -1;               ///< number among the walls of all patches, see LayerWalls

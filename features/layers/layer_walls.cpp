@@ -65,7 +65,7 @@ class WallSharing {
     for (int side = 0; side < (reversed_only ? 1 : 2); ++side) {
       std::ranges::reverse(nodes);
       const auto edge = graph_.edge_from(nodes[0], nodes[1]);
-      if (!edge || graph_.is_image((*edge)[0])) continue;
+      if (!edge) continue;
       const auto p = static_cast<std::size_t>((*edge)[0]);
       std::vector<int> points;
       for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
@@ -109,8 +109,7 @@ std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span
                                            const std::vector<std::vector<double>>& heights) {
   std::vector<LayerChains> found;
   for (std::size_t p = 0; p < domain.patches.size(); ++p)
-    found.push_back(graph.is_image(static_cast<int>(p)) ? LayerChains{}
-                                                        : find_layer_chains(domain, p, specs, layers, graph));
+    found.push_back(find_layer_chains(domain, p, specs, layers, graph));
   WallSharing(domain, specs, layers, graph, found).share();
   std::vector<PatchLayers> result;
   for (std::size_t p = 0; p < found.size(); ++p)
@@ -493,13 +492,10 @@ void LayerWalls::make_between(int id) {
     return;
   }
   const LayerWall& shape = shape_of(wall);
-  // Nodes of periodic curves stay, and so do those that have mirror images; on the only axis they have none.
-  const auto images = std::ranges::count(domain_.images, patches_[wall.patch].patch, &PatchImage::master);
-  const bool may_slide = !wall.is_paired && (images == 0 || (images == 1 && shape.is_axis));
   for (int k = 1; k < wall.n; ++k) {
     const double place = wall.from + (wall.to - wall.from) * k / wall.n;
     wall.nodes.push_back(add(wall, place));
-    if (domain_.places.empty() || !may_slide) continue;
+    if (domain_.places.empty() || wall.is_paired) continue;  // nodes of periodic curves stay
     const auto [low, high] = std::minmax({shape.track.param(wall.from), shape.track.param(wall.to)});
     domain_.places.back() = {shape.track.curve(), shape.track.param(place), low, high};
   }

@@ -21,7 +21,7 @@ struct PatchLayers {
 };
 
 /// Returns the layers of all patches that have some, or walls at which other layers end, in the order of
-/// patches. Mirror images have none. Throws InputError as find_layer_chains(), and if layers end on a curve
+/// patches. Throws InputError as find_layer_chains(), and if layers end on a curve
 /// that has layers on its other side.
 std::vector<PatchLayers> find_patch_layers(const PlanarDomain& domain, std::span<const LayerSpec> specs,
                                            const CurveLayers& layers, const BoundaryGraph& graph,

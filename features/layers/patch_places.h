@@ -28,6 +28,8 @@ class PatchPlaces {
   virtual Vec3 between(int a, int b, double part, int patch, Vec2 straight) const = 0;
   /// Returns whether a curve is a cut, with the same face on both sides.
   virtual bool is_cut(int curve) const = 0;
+  /// Returns whether a curve of a patch lies on a plane of symmetry, behind which the image of the patch is.
+  virtual bool is_axis(int patch, int curve) const = 0;
   /// Returns whether a curve begins or ends at a node.
   virtual bool is_end(int node) const = 0;
   /// Returns whether the nodes of the curve from a to b are given.

@@ -29,8 +29,8 @@ constexpr double kMuchLarger = 4;
 
 class SurfacePlaces final : public PatchPlaces {
  public:
-  SurfacePlaces(const SurfaceModel& model, const SurfaceDomain& domain)
-      : model_(model), domain_(domain), hint_(domain.patches.size(), -1) {
+  SurfacePlaces(const SurfaceModel& model, const SurfaceDomain& domain, const SymmetricHalf* part)
+      : model_(model), domain_(domain), part_(part), hint_(domain.patches.size(), -1) {
     for (std::size_t c = 0; c < domain.nodes.on_curve.size(); ++c) {
       const std::vector<CurveNode>& on_curve = domain.nodes.on_curve[c];
       for (std::size_t k = 0; k + 1 < on_curve.size(); ++k)
@@ -79,6 +79,10 @@ class SurfacePlaces final : public PatchPlaces {
   }
 
   bool is_cut(int curve) const override { return domain_.cut_face[curve] >= 0; }
+  bool is_axis(int patch, int curve) const override {
+    return part_ != nullptr && curve < static_cast<int>(part_->curve_planes.size()) &&
+           (part_->curve_planes[curve] & ~part_->face_planes[domain_.patches[patch].map.face]) != 0;
+  }
   bool is_end(int node) const override { return ends_.contains(node); }
   bool is_divided(int a, int b) const override {
     const int chain = chain_of(a, b);
@@ -148,6 +152,7 @@ class SurfacePlaces final : public PatchPlaces {
 
   const SurfaceModel& model_;
   const SurfaceDomain& domain_;
+  const SymmetricHalf* part_;
   mutable std::vector<int> hint_;              ///< of each patch
   std::map<std::pair<int, int>, Edge> edges_;  ///< between neighboring nodes
   std::set<int> ends_;                         ///< of curves
@@ -185,19 +190,22 @@ void place_wall(const WallNodes& wall, const SurfacePlaces& places, SurfaceDomai
 /// Throws InputError if images of marked entities are not marked. `images` returns the images of each.
 template <class Images>
 void check_marks_symmetric(const std::vector<char>& marked, const Images& images,
-                           const std::vector<Entity>& all, const char* kind, const LayerSpec& layer) {
+                           const std::vector<std::string>& titles, const LayerSpec& layer) {
   for (std::size_t one = 0; one < marked.size(); ++one)
     for (const int other : images(one))
       if (marked[one] && !marked[other])
         throw InputError(
-            fmt::format("{}: {} {} and {} are mirror images and have not the same layer: expected it on both",
-                        layer.where, kind, all[one].tag, all[other].tag));
+            fmt::format("{}: {} and {} are mirror images and have not the same layer: expected it on both",
+                        layer.where, titles[one], titles[other]));
 }
 
 }  // namespace
 
 std::vector<LayerSpec> layers_of_part(std::span<const LayerSpec> layers, const CutSurface& surface) {
   const Mesh& whole = surface.whole.fine;
+  std::vector<std::string> curves, faces;
+  for (const Entity& curve : whole.curves) curves.push_back(curve_title(curve));
+  for (const Entity& face : whole.regions) faces.push_back(fmt::format("face {}", face.tag));
   std::vector<LayerSpec> of_part(layers.begin(), layers.end());
   for (LayerSpec& layer : of_part) {
     const std::vector<char> on = layered_curves(whole, {&layer, 1});
@@ -206,9 +214,9 @@ std::vector<LayerSpec> layers_of_part(std::span<const LayerSpec> layers, const C
       for (const int f : find_entities(whole.regions, "region", name, layer.where)) into[f] = 1;
     for (const MirrorMatch& match : surface.matches) {
       check_marks_symmetric(
-          on, [&](auto c) { return match.curves[c]; }, whole.curves, "curve", layer);
+          on, [&](auto c) { return match.curves[c]; }, curves, layer);
       check_marks_symmetric(
-          into, [&](auto f) { return std::array{match.face[f]}; }, whole.regions, "face", layer);
+          into, [&](auto f) { return std::array{match.face[f]}; }, faces, layer);
     }
     layer.on.clear();
     for (std::size_t c = 0; c < surface.half.whole_curve.size(); ++c)
@@ -219,7 +227,8 @@ std::vector<LayerSpec> layers_of_part(std::span<const LayerSpec> layers, const C
 }
 
 std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const MappedSpec& grids,
-                                  const SurfaceModel& model, SurfaceDomain& domain, MeshingSetup& p) {
+                                  const SurfaceModel& model, const SymmetricHalf* part, SurfaceDomain& domain,
+                                  MeshingSetup& p) {
   PlanarDomain view;
   view.boundary = domain.boundary;
   view.mapped = domain.mapped;
@@ -231,7 +240,7 @@ std::vector<LocalSize> put_layers(std::span<const LayerSpec> layers, const Mappe
     for (std::size_t c = 0; c < domain.chains.size(); ++c)
       if (std::ranges::find(lips, domain.chains[c].curve) != lips.end())
         for (const CurveNode& node : domain.nodes.on_curve[c]) view.on_crack.push_back(node.node);
-  const SurfacePlaces places(model, domain);
+  const SurfacePlaces places(model, domain, part);
   view.in_space = &places;
   const std::vector<LocalSize> fine = put_layers(layers, grids, view, p);
   const std::vector<char> is_layered = layered_curves(model.fine, layers);

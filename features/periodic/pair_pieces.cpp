@@ -67,7 +67,6 @@ void follow_masters(const PlanarModel& model, const std::vector<ChainPair>& imag
     const CurvePiece& master = pieces[pair.master];
     piece.n = master.n;
     piece.interior = master.interior;
-    if (piece.is_mirrored) continue;
     piece.images.clear();
     const CurveSpan span(*piece.shape, piece.from, piece.to);
     const double tolerance = kTouch * norm(span.box().size());

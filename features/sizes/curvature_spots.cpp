@@ -75,8 +75,7 @@ std::vector<double> requested_turns(const PlanarModel& model, const PlanarDomain
         for (const int c : domain.patches[p].edge_curve)
           if (c >= 0) named.insert(named.end(), domain.model_curves[c].begin(), domain.model_curves[c].end());
     if (named.empty()) find_entities(curves, "curve", wanted.name, wanted.where);
-    for (const int c : named)
-      if (c < static_cast<int>(own.size())) own[c] = std::max(own[c], wanted.curvature);  // others are axes
+    for (const int c : named) own[c] = std::max(own[c], wanted.curvature);
   }
   for (double& per_turn : own)
     if (per_turn == 0) per_turn = spec.curvature;

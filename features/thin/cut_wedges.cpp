@@ -14,7 +14,6 @@ void cut_wedges(PlanarDomain& domain) {
   Mesh& mesh = domain.boundary;
   std::vector<char> stays(domain.patches.size(), 0);
   for (const MappedPatch& grid : domain.mapped) stays[grid.patch] = 1;
-  for (const PatchImage& image : domain.images) stays[image.patch] = stays[image.master] = 1;
   const CapNodes nodes{[](int) { return true; },
                        [&](int v) { return mesh.points[v]; },
                        [](const Vec3& x, Vec2) { return x; },

@@ -31,8 +31,6 @@ struct PatchSetup {
   std::shared_ptr<const CrossField> cross;
   std::shared_ptr<const ParametricSize> size;
   std::function<Vec3(Vec2, int& hint)> lift;
-  /// The motion of an image, which gets the master's mesh.
-  std::optional<PatchImage> image = {};
   std::optional<QuadPatch> grid = {};  ///< quads of a mapped face
   bool grid_stays = false;             ///< whether no stage changes the grid, as it was requested
   QuadPatch given = {};  ///< elements from which a pipeline may begin; none unless the model is a GivenMesh

@@ -32,7 +32,6 @@ struct CurvePiece {
   std::vector<double> interior = {};  ///< parameters of its nodes
   int curve = -1;                     ///< curve of the mesh; -1: a dangling curve
   int master = -1;                    ///< piece whose nodes have their images here; -1: none
-  bool is_mirrored = false;           ///< it has the shape of the master, mirrored, and the same parameters
   std::vector<Vec2> images = {};      ///< its nodes, if they are images by a motion
 
   /// Divides the piece into n >= 1 edges of equal integral; it must have a measure.

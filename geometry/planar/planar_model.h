@@ -30,14 +30,6 @@ struct DomainPiece {
   bool is_divided = false;            ///< their number was requested
 };
 
-/// A patch that is a mirror image of another.
-struct PatchImage {
-  int patch, master;
-  std::vector<int> point;            ///< point here for each point of the master's boundary
-  std::function<Vec2(Vec2)> motion;  ///< maps the master to this patch
-  bool is_mirrored = true;           ///< false: rotated, which is mirrored twice
-};
-
 /// A patch that shall become a grid.
 struct MappedPatch {
   int patch;
@@ -56,7 +48,6 @@ struct PlanarDomain {
   std::vector<PatchBoundary> patches;
   std::vector<int> patch_region;  ///< region of each patch, index into boundary.regions
   std::vector<MappedPatch> mapped;
-  std::vector<PatchImage> images;
   bool has_junctions = false;  ///< some node has other than two lines
   std::vector<int> on_crack;   ///< nodes along cracks, doubled and others
   /// For each curve, the model's curves on it. Empty if the lines were given, and for second lips of cracks.
