@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/sort_unique.h"
 #include "features/curves/mesh_planar_curves.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/mesh/half_edges.h"
@@ -105,6 +106,41 @@ std::vector<LooseLine> take_single_points(PlanarModel& model) {
   return loose;
 }
 
+/// Lists the lines of a domain along its curves, of which each part in one chain becomes a curve. Corners are
+/// the ends of pieces and named points. Returns the curves of the domain on which pieces and new curves lie;
+/// -1: none.
+std::pair<std::vector<int>, std::vector<int>> lines_of_pieces(const PlanarDomain& domain,
+                                                              SurfaceModel& model) {
+  Mesh& mesh = model.fine;
+  std::map<std::pair<int, int>, int> curve_at;
+  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
+    curve_at[std::minmax(mesh.lines[l][0], mesh.lines[l][1])] = mesh.line_curve[l];
+  std::vector<int> of_piece, of_curve, corners;
+  for (const NamedPoint& point : mesh.named_points) corners.push_back(point.point);
+  mesh.lines.clear();
+  mesh.line_curve.clear();
+  for (const DomainPiece& piece : domain.pieces) {
+    std::vector<int> nodes{piece.ends[0]};
+    nodes.insert(nodes.end(), piece.nodes.begin(), piece.nodes.end());
+    nodes.push_back(piece.ends[1]);
+    const auto line = curve_at.find(std::minmax(nodes[0], nodes[1]));
+    of_piece.push_back(line == curve_at.end() ? -1 : line->second);
+    if (of_piece.back() < 0) continue;
+    corners.insert(corners.end(), piece.ends.begin(), piece.ends.end());
+    const bool goes_on =
+        !of_curve.empty() && of_curve.back() == of_piece.back() && mesh.lines.back()[1] == nodes[0];
+    if (!goes_on) of_curve.push_back(of_piece.back());
+    for (std::size_t k = 1; k < nodes.size(); ++k) {
+      mesh.lines.push_back({nodes[k - 1], nodes[k]});
+      mesh.line_curve.push_back(static_cast<int>(of_curve.size()) - 1);
+    }
+  }
+  sort_unique(corners);
+  model.corners = std::move(corners);
+  mesh.curves = entities_of_pieces(mesh.curves, of_curve);
+  return {std::move(of_piece), std::move(of_curve)};
+}
+
 }  // namespace
 
 SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
@@ -115,22 +151,7 @@ SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
   SurfaceModel model = flat_model(domain, given.source);
   model.loose = std::move(loose);
   Mesh& mesh = model.fine;
-  std::vector<char> corner(mesh.points.size(), 0);
-  std::vector<int> piece_curves;
-  std::map<std::pair<int, int>, int> curve_of_line;
-  for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-    curve_of_line[std::minmax(mesh.lines[l][0], mesh.lines[l][1])] = mesh.line_curve[l];
-  for (const DomainPiece& piece : domain.pieces) {
-    for (const int end : piece.ends) corner[end] = 1;
-    const int next = piece.nodes.empty() ? piece.ends[1] : piece.nodes[0];
-    const auto line = curve_of_line.find(std::minmax(piece.ends[0], next));
-    piece_curves.push_back(line == curve_of_line.end() ? -1 : line->second);
-  }
-  for (const NamedPoint& point : mesh.named_points) corner[point.point] = 1;
-  const std::vector<int> before = mesh.line_curve;
-  std::vector<int> of_curve;
-  for (const auto& lines : chain_lines(model, before, corner)) of_curve.push_back(before[lines[0]]);
-  mesh.curves = entities_of_pieces(mesh.curves, of_curve);
+  const auto [piece_curves, of_curve] = lines_of_pieces(domain, model);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const int curve = mesh.line_curve[l];
@@ -143,7 +164,7 @@ SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
     const bool is_crack = std::ranges::any_of(of_model, [&](int c) { return given.curves[c].is_crack; });
     model.embedded.push_back({curve, face, false, is_crack});
   }
-  model.projector = std::make_shared<FlatGeometry>(domain.pieces, piece_curves, std::move(of_curve));
+  model.projector = std::make_shared<FlatGeometry>(domain.pieces, piece_curves, of_curve);
   return model;
 }
 

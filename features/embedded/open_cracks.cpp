@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -9,7 +10,6 @@
 #include "features/embedded/imprint.h"
 #include "geometry/mesh/double_nodes.h"
 #include "geometry/mesh/half_edges.h"
-#include "geometry/surface/compound_projector.h"
 
 namespace delquad {
 namespace {
@@ -83,6 +83,26 @@ class CrackOpener {
   std::vector<int> was_, node_;  ///< of each corner, before and now
 };
 
+/// The second lips of cracks, from a number of curve on, lie where the first ones do.
+class LipProjector final : public SurfaceProjector {
+ public:
+  LipProjector(std::shared_ptr<const SurfaceProjector> base, int first_lip,
+               std::vector<std::array<int, 2>> lips)
+      : base_(std::move(base)), first_lip_(first_lip), lips_(std::move(lips)) {}
+  Vec3 to_face(int face, const Vec3& x) const override { return base_->to_face(face, x); }
+  Vec3 to_curve(int curve, const Vec3& x) const override {
+    return base_->to_curve(curve < first_lip_ ? curve : lips_[curve - first_lip_][0], x);
+  }
+  PrincipalCurvatures curvatures(int face, const Vec3& x) const override {
+    return base_->curvatures(face, x);
+  }
+
+ private:
+  std::shared_ptr<const SurfaceProjector> base_;
+  int first_lip_;
+  std::vector<std::array<int, 2>> lips_;
+};
+
 }  // namespace
 
 void open_cracks(SurfaceModel& model, std::vector<FlatPatch>& maps) {
@@ -92,13 +112,12 @@ void open_cracks(SurfaceModel& model, std::vector<FlatPatch>& maps) {
   if (face_of_crack.empty()) return;
   const int first_lip = static_cast<int>(model.fine.curves.size());
   CrackOpener opener(model, face_of_crack);
-  std::vector<int> faces;
   for (const auto& [crack, lip] : opener.redraw()) model.lips.push_back({crack, lip});
   opener.renumber(model.corners, maps);
   std::ranges::sort(model.lips, {}, [](const auto& both) { return both[1]; });
-  for (const auto& both : model.lips) faces.push_back(face_of_crack.at(both[0]));
   std::erase_if(model.embedded, &EmbeddedCurve::is_crack);
-  if (model.projector) model.projector = with_curves_on_faces(model.projector, first_lip, std::move(faces));
+  if (model.projector)
+    model.projector = std::make_shared<LipProjector>(model.projector, first_lip, model.lips);
 }
 
 }  // namespace delquad

@@ -27,7 +27,8 @@ namespace {
 constexpr std::size_t kCheckedPlaces = 64;
 
 /// How far each line may lie off the curve that it stands for: its length times the turn at its ends.
-std::vector<double> bends_of_lines(const Mesh& mesh) {
+std::vector<double> bends_of_lines(const SurfaceModel& model) {
+  const Mesh& mesh = model.fine;
   std::vector<std::vector<int>> at(mesh.points.size());
   for (std::size_t l = 0; l < mesh.lines.size(); ++l)
     for (const int v : mesh.lines[l]) at[v].push_back(static_cast<int>(l));
@@ -38,7 +39,8 @@ std::vector<double> bends_of_lines(const Mesh& mesh) {
   for (const auto& line : mesh.lines) {
     double turn = 0;
     for (const int v : line)
-      if (at[v].size() == 2 && mesh.line_curve[at[v][0]] == mesh.line_curve[at[v][1]])
+      if (at[v].size() == 2 && mesh.line_curve[at[v][0]] == mesh.line_curve[at[v][1]] &&
+          !std::ranges::binary_search(model.corners, v))
         turn = std::max(turn, turn_angle(mesh.points[other(at[v][0], v)], mesh.points[v],
                                          mesh.points[other(at[v][1], v)]));
     bends.push_back(turn / 4 * norm(mesh.points[line[1]] - mesh.points[line[0]]));
@@ -65,7 +67,7 @@ struct MirrorMatcher::Tables {
         diagonal(delquad::diagonal(m.fine)),
         largest(part * diagonal),
         all(mesh.points, mesh.triangles),
-        line_bends(bends_of_lines(mesh)),
+        line_bends(bends_of_lines(m)),
         bends(mesh.triangles.size(), 0),
         triangles_of(mesh.regions.size()),
         tolerance(mesh.regions.size(), largest),

@@ -181,17 +181,26 @@ void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p) {
                     std::move(cut.half.curve_planes),
                     std::move(cut.half.face_planes),
                     {}};
-  // The images of each cut follow each other, by the bits of the planes.
+  // The mesh comes apart at cracks on planes.
+  for (const EmbeddedCurve& e : m.whole.model.embedded)
+    for (std::size_t c = 0; e.is_crack && c < m.whole_curve.size(); ++c)
+      if (m.whole_curve[c] == e.curve) m.curve_planes[c] &= m.face_planes[e.face];
+  // The images of each cut or lip follow each other, by the bits of the planes.
   const int images = 1 << m.planes.count();
   int tag = 0;
   for (const Entity& e : m.whole.model.fine.curves) tag = std::max(tag, e.tag);
   for (std::size_t c = m.whole_curve.size(); c < surface.model.fine.curves.size(); ++c) {
     const auto at = std::ranges::find(surface.cuts, static_cast<int>(c), &SurfaceCut::curve);
+    const auto lip =
+        std::ranges::find(surface.model.lips, static_cast<int>(c), [](const auto& l) { return l[1]; });
     const int face = at != surface.cuts.end() ? at->face : 0;
+    const int crack = lip != surface.model.lips.end() ? m.whole_curve[(*lip)[0]] : -1;
     m.whole_curve.push_back(static_cast<int>(m.whole.model.fine.curves.size()));
-    m.curve_planes.push_back(m.face_planes[face]);
+    m.curve_planes.push_back(crack >= 0 ? m.curve_planes[(*lip)[0]] : m.face_planes[face]);
     for (int mask = 0; mask < images; ++mask) {
-      m.whole.model.fine.curves.push_back({++tag, {}});
+      const int of = crack >= 0 ? image_curves(m, mask, crack)[0] : -1;
+      m.whole.model.fine.curves.push_back(
+          {++tag, of >= 0 ? m.whole.model.fine.curves[of].names : std::vector<std::string>()});
       if (at == surface.cuts.end()) continue;
       SurfaceCut image = *at;
       image.curve = static_cast<int>(m.whole.model.fine.curves.size()) - 1;

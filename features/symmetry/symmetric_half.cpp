@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -263,10 +264,12 @@ class SymmetricCutter {
     std::vector<int> lines_at(fine.points.size(), 0);
     for (const auto& line : fine.lines)
       for (const int v : line) ++lines_at[v];
+    const std::vector<char> is_start = smooth_starts();
     SurfaceEditor editor(half_.model);
     for (const int p : wanted) {
       const int folds = planes_.folds_of(fine.points[p], kSnap * diagonal_);
       if (folds == 0) continue;
+      if (is_start[p] && !named.contains(p)) continue;
       // The far end of a dangling curve may be anywhere.
       if (!of_others[p] && lines_at[p] < 2 && !named.contains(p)) continue;
       if (put_corner(editor, planes_.reflect_all(folds, fine.points[p]))) continue;
@@ -278,6 +281,27 @@ class SymmetricCutter {
                       show_point(fine.points[p]), show_point(planes_.reflect_all(folds, fine.points[p]))));
     }
     editor.finish();
+  }
+
+  /// Returns for each point of the whole whether only a closed curve begins there, which might do so
+  /// anywhere.
+  std::vector<char> smooth_starts() const {
+    constexpr double kSmooth = 30 * std::numbers::pi / 180;
+    const Mesh& fine = whole_.fine;
+    std::vector<std::vector<int>> next(fine.points.size());
+    std::vector<int> curve(fine.points.size(), -1);
+    std::vector<char> is_start(fine.points.size(), 1);
+    for (std::size_t l = 0; l < fine.lines.size(); ++l)
+      for (const int k : {0, 1}) {
+        const int v = fine.lines[l][k];
+        if (!next[v].empty() && curve[v] != fine.line_curve[l]) is_start[v] = 0;
+        next[v].push_back(fine.lines[l][1 - k]);
+        curve[v] = fine.line_curve[l];
+      }
+    for (std::size_t v = 0; v < is_start.size(); ++v)
+      is_start[v] = is_start[v] && next[v].size() == 2 &&
+                    turn_angle(fine.points[next[v][0]], fine.points[v], fine.points[next[v][1]]) < kSmooth;
+    return is_start;
   }
 
   std::string name_of(int p) const {
@@ -428,7 +452,7 @@ class SymmetricCutter {
         const auto on_both_sides = std::ranges::count_if(
             sides_of_edge(sides, mesh().lines[l][0], mesh().lines[l][1]),
             [&](const HalfEdge& s) { return mesh().triangle_region[s.element] == e.face; });
-        if (on_both_sides == 2) half_.model.embedded.push_back({curve, e.face, e.is_dangling});
+        if (on_both_sides == 2) half_.model.embedded.push_back({curve, e.face, e.is_dangling, e.is_crack});
       }
     }
   }
