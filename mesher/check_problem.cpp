@@ -236,11 +236,6 @@ void check_problem(const MeshProblem& problem) {
       throw InputError(
           problem.symmetry.where +
           ": the normal of a plane of symmetry has no length in the plane: expected x or y other than 0");
-  for (const EmbeddedLine& line : problem.surface.embed)
-    if (line.is_crack && is_symmetric(problem))
-      throw InputError(
-          fmt::format("{}: cracks of surfaces do not go with symmetry ({}): expected one of the two",
-                      line.where, problem.symmetry.where));
   check(problem.cross, problem.metric.asks());
   check_washers(problem);
   check_faces(problem);

@@ -168,6 +168,20 @@ void append(std::vector<Warning>& warnings, const std::vector<Warning>& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
+/// Warns of gaps between regions of a flat surface.
+void warn_of_flat_gaps(const SurfaceDomain& domain, std::vector<Warning>& warnings) {
+  PlanarDomain flat;
+  flat.boundary.curves = domain.boundary.curves;
+  for (const SurfacePatch& patch : domain.patches) {
+    PatchBoundary& boundary = flat.patches.emplace_back(patch.boundary);
+    for (std::size_t i = 0; i < boundary.points.size(); ++i) {
+      const Vec3& x = domain.nodes.points[boundary.point_node[i]];
+      boundary.points[i] = {x.x, x.y};
+    }
+  }
+  warn_of_gaps(flat, warnings);
+}
+
 class SurfaceSteps final : public ModelSteps {
  public:
   SurfaceSteps(const MeshProblem& problem, const RetryHints& hints) : problem_(problem), hints_(hints) {}
@@ -231,6 +245,7 @@ class SurfaceSteps final : public ModelSteps {
     append(p.warnings, surface_->model.warnings);
     append(p.warnings, of_periodic_);
     append(p.warnings, surface_->domain.warnings);
+    if (kind_of(problem_.model).in_plane) warn_of_flat_gaps(surface_->domain, p.warnings);
     if (!metric_) {
       warn_of_large_size(*wanted_.base, surface_->model.fine, p.warnings);
       warn_of_coarse_turns(wanted_, *surface_, p.warnings);

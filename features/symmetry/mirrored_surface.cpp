@@ -56,16 +56,15 @@ class DivisionSharing {
       if (other != asked_.end() && other->second.edges == division.edges &&
           other->second.progression == division.progression && other->second.bump == division.bump)
         continue;
-      throw InputError(
-          fmt::format("{}: curve {} is divided differently from curve {}, whose mirror image it is",
-                      division.where, tag(curve), tag(image)));
+      throw InputError(fmt::format("{}: {} is divided differently from {}, whose mirror image it is",
+                                   division.where, title(curve), title(image)));
     }
   }
 
   std::vector<CurveDivision> result;
 
  private:
-  int tag(int curve) const { return surface_.whole.fine.curves[curve].tag; }
+  std::string title(int curve) const { return curve_title(surface_.whole.fine.curves[curve]); }
 
   int image_of(int curve) const {
     std::vector<int> reached{curve};
@@ -87,14 +86,13 @@ class DivisionSharing {
     if (division.edges % shares != 0 || division.edges < least) {
       const int below = division.edges / shares * shares, above = below + shares;
       throw InputError(fmt::format(
-          "{}: {} edges for curve {}, of which planes of symmetry make {} equal parts: expected {}",
-          division.where, division.edges, tag(curve), shares,
+          "{}: {} edges for {}, of which planes of symmetry make {} equal parts: expected {}", division.where,
+          division.edges, title(curve), shares,
           below >= least ? fmt::format("{} or {}", below, above) : fmt::format("at least {}", least)));
     }
     if (least > 1 && (division.progression != 1 || division.bump != 1))
-      throw InputError(
-          fmt::format("{}: curve {} goes through a plane of symmetry: expected edges of equal length",
-                      division.where, tag(curve)));
+      throw InputError(fmt::format("{}: {} goes through a plane of symmetry: expected edges of equal length",
+                                   division.where, title(curve)));
     int rest = division.edges / shares, left = n_pieces;
     double ahead = length;
     for (const int p : pieces) {

@@ -414,7 +414,14 @@ class SymmetricCutter {
     find_touching();
   }
 
-  /// Curves from plane to plane that a mesh might have as one edge.
+  bool is_crack(int curve) const {
+    const int whole = half_.whole_curve[curve];
+    return std::ranges::any_of(whole_.embedded, [&](const EmbeddedCurve& e) {
+      return e.is_crack && whole >= 0 && e.curve == whole;
+    });
+  }
+
+  /// Curves from plane to plane, and cracks on planes, that a mesh might have as one edge.
   void split_short_curves() {
     constexpr double kSizes = 3;
     std::vector<int>& corners = half_.model.corners;
@@ -424,7 +431,7 @@ class SymmetricCutter {
       for (end = begin; end < mesh().lines.size() && mesh().line_curve[end] == curve; ++end)
         length += length_of(end);
       const int first = mesh().lines[begin][0], last = mesh().lines[end - 1][1];
-      const int both = shared_[first] & shared_[last] & ~half_.curve_planes[curve];
+      const int both = shared_[first] & shared_[last] & ~(is_crack(curve) ? 0 : half_.curve_planes[curve]);
       if (both == 0 || length > kSizes * size_.at(mesh().points[first], hint_)) continue;
       double along = 0;
       std::size_t middle = begin;

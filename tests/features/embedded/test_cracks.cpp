@@ -25,6 +25,8 @@ MeshResult expect_open(MeshProblem problem, std::vector<EmbeddedLine> cracks, st
   for (const auto& [x, n] : at) single += n == 1;
   EXPECT_EQ(single, tips);
   for (EmbeddedLine& line : problem.surface.embed) line.is_crack = false;
+  if (auto* planar = std::get_if<PlanarModel>(&problem.model))
+    for (ModelCurve& curve : planar->curves) curve.is_crack = false;
   const MeshResult whole = mesh(problem, "DBCO");
   EXPECT_NEAR(length_named(apart.mesh, "crack"), 2 * length_named(whole.mesh, "crack"),
               1e-2 * length_named(apart.mesh, "crack"));
@@ -62,6 +64,28 @@ TEST(CracksOnFaces, LieOnCurvedFaces) {
   for (const int v : nodes_named(result.mesh, "crack")) EXPECT_NEAR(norm(result.mesh.points[v]), 10, 1e-9);
 }
 
+/// Beside a plane of symmetry, across it and on it, also shorter than the size; of triangles and planar.
+TEST(CracksOnFaces, AreMirrored) {
+  const std::vector<EmbeddedLine> beside{crack({{0.1, 0.3, 0}, {0.3, 0.5, 0}}),
+                                         crack({{0.9, 0.3, 0}, {0.7, 0.5, 0}})},
+      across{crack({{0.2, 0.6, 0}, {0.8, 0.6, 0}})}, on{crack({{0.5, 0, 0}, {0.5, 0.45, 0}})},
+      small{crack({{0.5, 0.5, 0}, {0.5, 0.54, 0}})};
+  const SymmetrySpec plane{{{{0.5, 0, 0}, {1, 0, 0}}}};
+  for (const auto& [cracks, tips] :
+       {std::pair(beside, 4u), std::pair(across, 2u), std::pair(on, 1u), std::pair(small, 2u)}) {
+    MeshProblem triangles = problem_of(TriangleModel{triangle_grid(4, 4)}, 0.1);
+    triangles.symmetry = plane;
+    expect_open(triangles, cracks, tips);
+    ModelMaker maker = ModelMaker().rectangle({0, 0}, {1, 1});
+    for (const EmbeddedLine& line : cracks)
+      maker.curve(make_segment({line.points[0].x, line.points[0].y}, {line.points[1].x, line.points[1].y}),
+                  "crack", true);
+    MeshProblem planar = maker.problem(0.1);
+    planar.symmetry = plane;
+    expect_open(planar, {}, tips);
+  }
+}
+
 TEST(CracksOnFaces, RefuseWhatCannotBe) {
   const auto refuse = [](MeshProblem problem, std::initializer_list<const char*> parts) {
     if (problem.surface.embed.empty()) problem.surface.embed = {crack({{0.2, 0.5, 1}, {0.8, 0.5, 1}})};
@@ -72,9 +96,6 @@ TEST(CracksOnFaces, RefuseWhatCannotBe) {
   refuse(problem, {"'crack' is no crack", "polyline"});
   problem.surface.embed = {crack({{0.2, 1, 1}, {0.8, 1, 1}})};
   refuse(problem, {"runs along"});
-  problem = box_problem();
-  problem.symmetry.automatic = true;
-  refuse(problem, {"cracks", "symmetry"});
   problem = problem_of(TriangleModel{box(4)});
   problem.metric.chord = 0.01;
   refuse(problem, {"cracks do", "[not-with-a-metric]"});
