@@ -112,7 +112,7 @@ delquad_module(features/crosses LINKS base geometry/mesh geometry/surface algori
 delquad_module(features/divisions COLD LINKS geometry/mesh geometry/planar geometry/patches features/sizes)
 delquad_module(features/embedded COLD LINKS base geometry/mesh geometry/planar geometry/surface features/sizes)
 delquad_module(features/symmetry COLD LINKS base geometry/mesh geometry/planar geometry/surface algorithms/fields geometry/patches
-               features/divisions PRIVATE
+               features/divisions features/embedded PRIVATE
                Eigen3::Eigen)
 delquad_module(features/periodic COLD LINKS base geometry/mesh geometry/planar geometry/surface geometry/patches features/sizes)
 delquad_module(features/grids LINKS base base/matching geometry/mesh geometry/planar geometry/patches smoothing/relocation

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "delquad/error.h"
+#include "features/embedded/imprint.h"
 #include "features/symmetry/symmetry_planes.h"
 #include "geometry/mesh/entity_names.h"
 #include "geometry/mesh/keep_elements.h"
@@ -166,8 +167,45 @@ std::vector<double> most_of_curves(const std::vector<double>& values, const CutS
   return of_part;
 }
 
+namespace {
+
+/// Returns the second lip of a crack that is open.
+int second_lip(const SurfaceModel& model, int crack) {
+  for (const auto& lips : model.lips)
+    if (lips[0] == crack) return lips[1];
+  return crack;
+}
+
+/// Opens the cracks of the whole, and tells the images of their lips. A crack on a plane has its other lip as
+/// its image, so that the part and its image do not share its nodes.
+void open_whole(CutSurface& cut) {
+  const std::vector<EmbeddedCurve> embedded = cut.whole.embedded;
+  std::vector<FlatPatch> none;
+  open_cracks(cut.whole, none);
+  for (MirrorMatch& match : cut.matches) {
+    match.curves.resize(cut.whole.fine.curves.size());
+    for (const auto& [crack, lip] : cut.whole.lips)
+      for (const int image : match.curves[crack]) match.curves[lip].push_back(second_lip(cut.whole, image));
+  }
+  for (const EmbeddedCurve& e : embedded)
+    for (std::size_t c = 0; e.is_crack && c < cut.half.whole_curve.size(); ++c) {
+      if (cut.half.whole_curve[c] != e.curve) continue;
+      int& planes = cut.half.curve_planes[c];
+      for (std::size_t k = 0; k < cut.matches.size(); ++k) {
+        if (!((planes & ~cut.half.face_planes[e.face]) >> k & 1)) continue;
+        const int lip = second_lip(cut.whole, e.curve);
+        cut.matches[k].curves[e.curve] = {lip};
+        cut.matches[k].curves[lip] = {e.curve};
+      }
+      planes &= cut.half.face_planes[e.face];
+    }
+}
+
+}  // namespace
+
 void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p) {
   p.symmetry = cut.planes.all();
+  open_whole(cut);
   for (auto* size : {&p.size.field, &p.size.asked, &p.size.curved})
     if (*size) *size = folded_size(*size, cut.planes);
   const int first_cut = static_cast<int>(cut.whole.fine.curves.size());
@@ -179,26 +217,24 @@ void add_whole(CutSurface cut, SurfaceSetup& surface, MeshingSetup& p) {
                     std::move(cut.half.curve_planes),
                     std::move(cut.half.face_planes),
                     {}};
-  // The mesh comes apart at cracks on planes.
-  for (const EmbeddedCurve& e : m.whole.model.embedded)
-    for (std::size_t c = 0; e.is_crack && c < m.whole_curve.size(); ++c)
-      if (m.whole_curve[c] == e.curve) m.curve_planes[c] &= m.face_planes[e.face];
-  // The images of each cut or lip follow each other, by the bits of the planes.
+  // The images of each cut follow each other, by the bits of the planes.
   const int images = 1 << m.planes.count();
   int tag = 0;
   for (const Entity& e : m.whole.model.fine.curves) tag = std::max(tag, e.tag);
   for (std::size_t c = m.whole_curve.size(); c < surface.model.fine.curves.size(); ++c) {
     const auto at = std::ranges::find(surface.cuts, static_cast<int>(c), &SurfaceCut::curve);
-    const auto lip =
-        std::ranges::find(surface.model.lips, static_cast<int>(c), [](const auto& l) { return l[1]; });
+    const auto lip = std::ranges::find_if(surface.model.lips,
+                                          [&](const auto& lips) { return lips[1] == static_cast<int>(c); });
+    if (lip != surface.model.lips.end()) {
+      m.whole_curve.push_back(second_lip(m.whole.model, m.whole_curve[(*lip)[0]]));
+      m.curve_planes.push_back(int(m.curve_planes[(*lip)[0]]));
+      continue;
+    }
     const int face = at != surface.cuts.end() ? at->face : 0;
-    const int crack = lip != surface.model.lips.end() ? m.whole_curve[(*lip)[0]] : -1;
     m.whole_curve.push_back(static_cast<int>(m.whole.model.fine.curves.size()));
-    m.curve_planes.push_back(crack >= 0 ? m.curve_planes[(*lip)[0]] : m.face_planes[face]);
+    m.curve_planes.push_back(m.face_planes[face]);
     for (int mask = 0; mask < images; ++mask) {
-      const int of = crack >= 0 ? image_curves(m, mask, crack)[0] : -1;
-      m.whole.model.fine.curves.push_back(
-          {++tag, of >= 0 ? m.whole.model.fine.curves[of].names : std::vector<std::string>()});
+      m.whole.model.fine.curves.push_back({++tag, {}});
       if (at == surface.cuts.end()) continue;
       SurfaceCut image = *at;
       image.curve = static_cast<int>(m.whole.model.fine.curves.size()) - 1;

@@ -405,6 +405,21 @@ TEST(SymmetricSurfaces, DividedCurvesShareTheirEdges) {
   expect_input_error([&] { mesh(problem, "DBCO"); }, {"d 1: curve", "expected edges of equal length"});
 }
 
+TEST(SymmetricSurfaces, CurvedElementsAreMirrored) {
+  MeshProblem problem = problem_of(testing_support::round_sphere(24).fine, 0.3, {{}, true});
+  problem.order = 2;
+  const MeshResult faceted = mesh(problem, "DBCO");
+  EXPECT_TRUE(faceted.soundness.sound()) << faceted.soundness.text();
+  EXPECT_EQ(faceted.mesh.order, 2);
+  for (const SymmetryPlane& plane : faceted.prepared->symmetry) expect_mirrored(faceted.mesh, plane);
+  problem.model = ExampleModel{"torus"};
+  problem.size.field = make_constant_size(5);
+  problem.symmetry = at({{{0, 0, 0}, {0, 0, 1}}});
+  const MeshResult torus = mesh(problem, "DBCO");
+  EXPECT_TRUE(torus.soundness.sound()) << torus.soundness.text();
+  expect_mirrored(torus.mesh, problem.symmetry.planes[0]);
+}
+
 TEST(SymmetricSurfaces, ExamplesOfCadAreMirrored) {
   const std::vector<std::pair<std::string, SymmetryPlane>> examples{{"bracket", {{0, 30, 0}, {0, 1, 0}}},
                                                                     {"torus", {{0, 0, 0}, {0, 0, 1}}},
