@@ -248,14 +248,15 @@ class SurfaceGeometry final : public ModelGeometry {
     const int planes = planes_before(given);
     const auto found = chains_of_.find({planes, curve});
     if (found == chains_of_.end()) return std::nullopt;
-    return image(planes, on_chains(found->second, image(planes, given)));
+    return image(planes, on_planes(given, on_chains(found->second, image(planes, given))));
   }
   bool slides(int vertex) const override { return sliding_.contains(place_of(mesh_.points[vertex])); }
   Vec3 on_face(int region, const Vec3& given) const override {
     const int planes = planes_before(given);
     const int face = planes != 0 ? image_face(*mirrored(), planes, region) : region;
     const Vec3 x = image(planes, given);
-    return image(planes, facets_ ? facets_->place(face, x) : surface_.model.projector->to_face(face, x));
+    return image(planes, on_planes(given, facets_ ? facets_->place(face, x)
+                                                  : surface_.model.projector->to_face(face, x)));
   }
 
  private:
@@ -263,6 +264,13 @@ class SurfaceGeometry final : public ModelGeometry {
   /// Returns the bits of the planes of symmetry behind which x lies.
   int planes_before(const Vec3& x) const {
     return mirrored() != nullptr ? mirrored()->planes.folds_of(x, tolerance_) : 0;
+  }
+  /// Returns x, on the planes of symmetry on which another place lies.
+  Vec3 on_planes(const Vec3& other, const Vec3& x) const {
+    int planes = 0;
+    for (int k = 0; mirrored() != nullptr && k < mirrored()->planes.count(); ++k)
+      planes |= (std::abs(mirrored()->planes.height(k, other)) <= tolerance_) << k;
+    return planes != 0 ? mirrored()->planes.put_on_all(planes, x) : x;
   }
   Vec3 image(int planes, const Vec3& x) const {
     return planes != 0 ? mirrored()->planes.reflect_all(planes, x) : x;

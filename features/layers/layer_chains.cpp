@@ -259,7 +259,6 @@ LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::ve
   }
   const auto edge = graph.edge_from(nodes[0], nodes[1]);
   const int curve = boundary.edge_curve[(*edge)[1]];
-  const bool is_axis = domain.in_space != nullptr && domain.in_space->is_axis(static_cast<int>(patch), curve);
   const auto refuse_divided = [&] {
     throw InputError(
         fmt::format("{}: the layer ends on {} at {}, of which 'divide' gives the number of edges: expected "
@@ -274,18 +273,17 @@ LayerWall make_layer_wall(const PlanarDomain& domain, std::size_t patch, std::ve
             fmt::format("{}: the layer ends on {} at {}, where more than two faces meet: expected "
                         "layers 'into' other faces",
                         where, curve_title(domain.boundary.curves[curve]), show_node(domain, nodes[i])));
-    return {std::move(points), curve,
-            WallTrack(std::move(places), std::move(nodes), *domain.in_space, static_cast<int>(patch))};
+    const int p = static_cast<int>(patch);
+    return {std::move(points),
+            curve,
+            WallTrack(std::move(places), std::move(nodes), *domain.in_space, p),
+            {-1, -1},
+            domain.in_space->is_axis(p, curve)};
   }
-  if (domain.places.empty())
-    return {std::move(points), curve, WallTrack(std::move(places), nullptr, {}), {-1, -1}, is_axis};
+  if (domain.places.empty()) return {std::move(points), curve, WallTrack(std::move(places), nullptr, {})};
   auto [piece, params] = piece_with(domain, nodes);
   if (piece->is_divided) refuse_divided();
-  return {std::move(points),
-          curve,
-          WallTrack(std::move(places), piece->shape, std::move(params)),
-          {-1, -1},
-          is_axis};
+  return {std::move(points), curve, WallTrack(std::move(places), piece->shape, std::move(params))};
 }
 
 WallTrack::WallTrack(std::vector<Vec2> points, std::shared_ptr<const Curve> curve, std::vector<double> params)

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace delquad {
@@ -41,6 +42,7 @@ class MeshMirror {
     for (int k = 0; k < m_.planes.count(); ++k) add_image(k);
     if (std::ranges::count(is_first_, 1) > 0) sort_quads();
     name_points();
+    orient_outlines();
     return std::move(mesh_);
   }
 
@@ -72,7 +74,7 @@ class MeshMirror {
     const std::size_t n_lines = mesh_.lines.size();
     for (std::size_t l = 0; l < n_lines; ++l) {
       if (line_planes_[l] >> plane & 1) continue;
-      const std::array<int, 2> line{image[mesh_.lines[l][0]], image[mesh_.lines[l][1]]};
+      const std::array<int, 2> line{image[mesh_.lines[l][1]], image[mesh_.lines[l][0]]};  // runs on
       mesh_.lines.push_back(line);
       mesh_.line_curve.push_back(image_curve(plane, mesh_.line_curve[l], line));
       line_planes_.push_back(int(line_planes_[l]));
@@ -136,6 +138,30 @@ class MeshMirror {
             least = distance, nearest = v;
       if (nearest >= 0) mesh_.named_points.push_back({nearest, named.entity});
     }
+  }
+
+  /// Lines with an element on one side have it on their left.
+  void orient_outlines() {
+    std::map<std::array<int, 2>, std::size_t> lines;
+    std::vector<char> on_line(mesh_.points.size(), 0);
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l) {
+      lines.emplace(mesh_.lines[l], l);
+      for (const int v : mesh_.lines[l]) on_line[v] = 1;
+    }
+    std::vector<int> sides(mesh_.lines.size(), 0);  // 1: on the left, 2: on the right
+    const auto look = [&](const auto& elements) {
+      for (const auto& element : elements)
+        for (std::size_t k = 0; k < element.size(); ++k) {
+          const int a = element[k], b = element[(k + 1) % element.size()];
+          if (!on_line[a] || !on_line[b]) continue;
+          if (const auto left = lines.find({a, b}); left != lines.end()) sides[left->second] |= 1;
+          if (const auto right = lines.find({b, a}); right != lines.end()) sides[right->second] |= 2;
+        }
+    };
+    look(mesh_.triangles);
+    look(mesh_.quads);
+    for (std::size_t l = 0; l < mesh_.lines.size(); ++l)
+      if (sides[l] == 2) std::swap(mesh_.lines[l][0], mesh_.lines[l][1]);
   }
 
   const MirroredSurface& m_;
