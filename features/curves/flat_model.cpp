@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "features/curves/flat_model.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -8,10 +10,13 @@
 #include <utility>
 
 #include "base/sort_unique.h"
+#include "delquad/error.h"
 #include "features/curves/mesh_planar_curves.h"
 #include "geometry/mesh/constrained_delaunay.h"
 #include "geometry/mesh/half_edges.h"
+#include "geometry/mesh/nearest_triangle.h"
 #include "geometry/planar/curve_span.h"
+#include "geometry/planar/loops_apart.h"
 #include "geometry/planar/model_chain.h"
 #include "geometry/surface/curve_chains.h"
 
@@ -149,8 +154,13 @@ SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
   for (ModelCurve& curve : plain.curves) curve.is_crack = false;
   const PlanarDomain domain = make_domain(plain, size);
   SurfaceModel model = flat_model(domain, given.source);
-  model.loose = std::move(loose);
   Mesh& mesh = model.fine;
+  const NearestTriangle regions(mesh.points, mesh.triangles);
+  for (const LooseLine& point : loose)
+    if (const Vec3& x = point.points[0]; regions.find(x).distance > kTouch * diagonal(mesh))
+      throw InputError(fmt::format("{} at ({:.10g}, {:.10g}) lies outside of every region [embedded-outside]",
+                                   point.where, x.x, x.y));
+  model.loose = std::move(loose);
   const auto [piece_curves, of_curve] = lines_of_pieces(domain, model);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {

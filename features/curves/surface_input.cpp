@@ -264,10 +264,14 @@ SurfaceModel make_flat(const MeshProblem& problem, const PlanarModel& model) {
   constexpr int kChords = 64;           // a curve
   constexpr double kMetricEdge = 0.01;  // in diagonals: metrics divide edges
   constexpr double kEdge = 0.25;        // in sizes
+  constexpr double kLeastEdge = 1e-4;   // in diagonals: smaller sizes need too many quads
+  const double diagonal = norm(box_of(model, kChords).size());
   std::vector<Warning> warnings;
-  const auto size = problem.metric.asks()
-                        ? make_constant_size(kMetricEdge * norm(box_of(model, kChords).size()))
-                        : scaled(kEdge, planar_base_size(problem.size, model, warnings));
+  const auto size =
+      problem.metric.asks()
+          ? make_constant_size(kMetricEdge * diagonal)
+          : size_by([asked = planar_base_size(problem.size, model, warnings), least = kLeastEdge * diagonal](
+                        const Vec3& x, int& hint) { return std::max(kEdge * asked->at(x, hint), least); });
   SurfaceModel flat = flat_surface(model, *size);
   flat.fine.unit = problem.surface.unit;
   flat.warnings.insert(flat.warnings.begin(), model.notes.begin(), model.notes.end());

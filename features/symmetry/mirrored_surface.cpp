@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "delquad/error.h"
@@ -78,6 +79,19 @@ class DivisionSharing {
     return curve;
   }
 
+  /// Returns whether a curve of the part ends nearer to a plane than it begins.
+  bool runs_to_plane(int curve) const {
+    const Mesh& fine = surface_.half.model.fine;
+    const std::vector<int> points = points_of_curves(fine)[curve];
+    const auto distance = [&](int p) {
+      double least = std::numeric_limits<double>::infinity();
+      for (int k = 0; k < surface_.planes.count(); ++k)
+        least = std::min(least, std::abs(surface_.planes.height(k, fine.points[p])));
+      return least;
+    };
+    return distance(points.back()) < distance(points.front());
+  }
+
   void share(const CurveDivision& division, int curve) {
     const std::vector<int>& pieces = pieces_[curve];
     double length = 0;
@@ -91,7 +105,8 @@ class DivisionSharing {
           division.edges, title(curve), shares,
           below >= least ? fmt::format("{} or {}", below, above) : fmt::format("at least {}", least)));
     }
-    if (least > 1 && (division.progression != 1 || division.bump != 1))
+    const bool is_halved = least == 2 && n_pieces == 1;
+    if (least > 1 && (division.progression != 1 || (division.bump != 1 && !is_halved)))
       throw InputError(fmt::format("{}: {} goes through a plane of symmetry: expected edges of equal length",
                                    division.where, title(curve)));
     int rest = division.edges / shares, left = n_pieces;
@@ -105,6 +120,11 @@ class DivisionSharing {
       rest -= own.edges;
       ahead -= part_lengths_[p];
       --left;
+      if (is_halved && division.bump != 1) {
+        // Lengths of edges between an end and the middle have equal ratios.
+        own.bump = 1;
+        own.progression = std::pow(division.bump, (runs_to_plane(p) ? -2.0 : 2.0) / (division.edges - 1));
+      }
       result.push_back(std::move(own));
     }
   }

@@ -244,6 +244,28 @@ TEST(Symmetry, NumbersOfEdgesThatWouldDoAreTold) {
   expect_mirrored(r.mesh, about_x2);
 }
 
+TEST(Symmetry, DividedCurvesMayHaveShortEdgesAtTheirEnds) {
+  PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}});
+  model.curves[0].name = "below";
+  for (const double normal : {-1.0, 1.0}) {
+    MeshProblem problem = symmetric_problem(model, 0.3, {{{{2, 0, 0}, {normal, 0, 0}}}});
+    problem.divisions = {{"below", 12, 1, 0.2}};
+    const MeshResult r = mesh(problem, "DBCO");
+    std::vector<double> lengths;
+    for (std::size_t l = 0; l < r.mesh.lines.size(); ++l)
+      if (has_name(r.mesh.curves[r.mesh.line_curve[l]], "below"))
+        lengths.push_back(norm(r.mesh.points[r.mesh.lines[l][1]] - r.mesh.points[r.mesh.lines[l][0]]));
+    ASSERT_EQ(lengths.size(), 12u);
+    const auto [least, most] = std::ranges::minmax(lengths);
+    EXPECT_NEAR(least / most, std::pow(0.2, 10.0 / 11), 1e-9);  // of the two edges in the middle, 1 / 11 off
+    for (const double x : {0.0, 4.0})
+      EXPECT_TRUE(std::ranges::any_of(r.mesh.points, [&](const Vec3& p) {
+        return p.y == 0 && std::abs(std::abs(p.x - x) - least) < 1e-9;
+      }));
+    expect_mirrored(r.mesh, about_x2);
+  }
+}
+
 TEST(Symmetry, CurvedElementsAreMirroredAndOnTheirCurves) {
   for (const int order : {2, 3}) {
     MeshProblem problem = symmetric_problem(symmetric_plate(), 0.2, {{}, true});
