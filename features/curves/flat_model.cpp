@@ -65,24 +65,46 @@ class FlatGeometry final : public SurfaceProjector {
       : pieces_(std::move(pieces)), of_(std::move(of)), spans_(*std::ranges::max_element(of_) + 1) {
     for (std::size_t i = 0; i < pieces_.size(); ++i)
       if (const int curve = piece_curves[i]; curve >= 0)
-        spans_[curve].emplace_back(*pieces_[i].shape, pieces_[i].from, pieces_[i].to);
+        spans_[curve].push_back({{*pieces_[i].shape, pieces_[i].from, pieces_[i].to}, &pieces_[i]});
   }
   Vec3 to_face(int, const Vec3& x) const override { return {x.x, x.y, 0}; }
   Vec3 to_curve(int curve, const Vec3& x) const override {
     CurveSpan::Place best{0, {x.x, x.y}, std::numeric_limits<double>::infinity()};
-    for (const CurveSpan& span : spans_[of_[curve]]) {
+    const DomainPiece* piece = nullptr;
+    for (const auto& [span, of] : spans_[of_[curve]]) {
       if (!(span.box().distance2({x.x, x.y}) < best.distance * best.distance)) continue;
       const CurveSpan::Place place = span.nearest({x.x, x.y});
-      if (place.distance < best.distance) best = place;
+      if (place.distance < best.distance) best = place, piece = of;
     }
-    return {best.at.x, best.at.y, 0};
+    const Vec2 at = piece != nullptr ? improved(*piece, best, {x.x, x.y}) : best.at;
+    return {at.x, at.y, 0};
   }
   PrincipalCurvatures curvatures(int, const Vec3&) const override { return {0, 0, {1, 0, 0}}; }
 
  private:
+  /// Returns the nearest place to rounding: distances alone tell it to half of the digits.
+  static Vec2 improved(const DomainPiece& piece, const CurveSpan::Place& place, Vec2 x) {
+    constexpr double kStep = 1e-5, kAsNear = 1 + 1e-9;
+    constexpr int kSteps = 2;
+    const auto [low, high] = std::minmax(piece.from, piece.to);
+    double t = place.t;
+    for (int step = 0; step < kSteps; ++step) {
+      const double a = std::max(t - kStep * (high - low), low), b = std::min(t + kStep * (high - low), high);
+      const Vec2 along = (1 / (b - a)) * (piece.shape->point(b) - piece.shape->point(a));
+      t = std::clamp(t + dot(x - piece.shape->point(t), along) / dot(along, along), low, high);
+    }
+    const Vec2 at = piece.shape->point(t);
+    return norm(at - x) <= kAsNear * place.distance ? at : place.at;
+  }
+
+  struct PieceSpan {
+    CurveSpan span;
+    const DomainPiece* piece;
+  };
+
   std::vector<DomainPiece> pieces_;  ///< keep their shapes
   std::vector<int> of_;
-  std::vector<std::vector<CurveSpan>> spans_;
+  std::vector<std::vector<PieceSpan>> spans_;
 };
 
 /// Takes the points that lie on no curve out of a model, as lines of one point.

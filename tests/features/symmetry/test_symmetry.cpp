@@ -25,6 +25,16 @@ PlanarModel symmetric_plate() {
   return model;
 }
 
+PlanarModel named_rectangle() {
+  PlanarModel model;
+  model.curves = {{make_segment({0, 0}, {4, 0}), "below", {}},
+                  {make_segment({4, 0}, {4, 2}), "right", {}},
+                  {make_segment({4, 2}, {0, 2}), "above", {}},
+                  {make_segment({0, 2}, {0, 0}), "left", {}}};
+  model.loops = {{{0, 1, 2, 3}, "plate", {}}};
+  return model;
+}
+
 MeshProblem symmetric_problem(PlanarModel model, double size, SymmetrySpec spec) {
   MeshProblem problem;
   problem.model = std::move(model);
@@ -143,12 +153,7 @@ TEST(Symmetry, PlanesThatAreFoundAreTold) {
 }
 
 TEST(Symmetry, TheLeastSizeOfAllImagesCounts) {
-  PlanarModel model;
-  model.curves = {{make_segment({0, 0}, {4, 0}), "below", {}},
-                  {make_segment({4, 0}, {4, 2}), "right", {}},
-                  {make_segment({4, 2}, {0, 2}), "above", {}},
-                  {make_segment({0, 2}, {0, 0}), "left", {}}};
-  model.loops = {{{0, 1, 2, 3}, "plate", {}}};
+  const PlanarModel model = named_rectangle();
   const SymmetrySpec one{{{{2, 1, 0}, {1, 0, 0}}}}, two{{{{2, 1, 0}, {1, 0, 0}}, {{2, 1, 0}, {0, 1, 0}}}};
   const auto meshed = [&](const std::vector<std::string>& names, const SymmetrySpec& spec) {
     MeshProblem problem = symmetric_problem(model, 0.2, spec);
@@ -245,8 +250,7 @@ TEST(Symmetry, NumbersOfEdgesThatWouldDoAreTold) {
 }
 
 TEST(Symmetry, DividedCurvesMayHaveShortEdgesAtTheirEnds) {
-  PlanarModel model = polygons({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}});
-  model.curves[0].name = "below";
+  const PlanarModel model = named_rectangle();
   for (const double normal : {-1.0, 1.0}) {
     MeshProblem problem = symmetric_problem(model, 0.3, {{{{2, 0, 0}, {normal, 0, 0}}}});
     problem.divisions = {{"below", 12, 1, 0.2}};
