@@ -133,6 +133,16 @@ std::vector<LooseLine> take_single_points(PlanarModel& model) {
   return loose;
 }
 
+/// Throws InputError for single points outside of all regions.
+void check_inside(const std::vector<LooseLine>& loose, const Mesh& mesh) {
+  if (loose.empty()) return;
+  const NearestTriangle regions(mesh.points, mesh.triangles);
+  for (const LooseLine& point : loose)
+    if (const Vec3& x = point.points[0]; regions.find(x).distance > kTouch * diagonal(mesh))
+      throw InputError(fmt::format("{} at ({:.10g}, {:.10g}) lies outside of every region [embedded-outside]",
+                                   point.where, x.x, x.y));
+}
+
 /// Lists the lines of a domain along its curves, of which each part in one chain becomes a curve. Corners are
 /// the ends of pieces and named points. Returns the curves of the domain on which pieces and new curves lie;
 /// -1: none.
@@ -177,11 +187,7 @@ SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
   const PlanarDomain domain = make_domain(plain, size);
   SurfaceModel model = flat_model(domain, given.source);
   Mesh& mesh = model.fine;
-  const NearestTriangle regions(mesh.points, mesh.triangles);
-  for (const LooseLine& point : loose)
-    if (const Vec3& x = point.points[0]; regions.find(x).distance > kTouch * diagonal(mesh))
-      throw InputError(fmt::format("{} at ({:.10g}, {:.10g}) lies outside of every region [embedded-outside]",
-                                   point.where, x.x, x.y));
+  check_inside(loose, mesh);
   model.loose = std::move(loose);
   const auto [piece_curves, of_curve] = lines_of_pieces(domain, model);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);

@@ -264,15 +264,24 @@ SurfaceModel make_flat(const MeshProblem& problem, const PlanarModel& model) {
   constexpr int kChords = 64;           // a curve
   constexpr double kMetricEdge = 0.01;  // in diagonals: metrics divide edges
   constexpr double kEdge = 0.25;        // in sizes
-  constexpr double kLeastEdge = 1e-4;   // in diagonals: smaller sizes need too many quads
+  // In diagonals. Shorter edges are only where longer ones cannot keep curves apart.
+  constexpr double kLeastEdge = 1e-3, kShortest = 1e-5;
   const double diagonal = norm(box_of(model, kChords).size());
   std::vector<Warning> warnings;
-  const auto size =
-      problem.metric.asks()
-          ? make_constant_size(kMetricEdge * diagonal)
-          : size_by([asked = planar_base_size(problem.size, model, warnings), least = kLeastEdge * diagonal](
-                        const Vec3& x, int& hint) { return std::max(kEdge * asked->at(x, hint), least); });
-  SurfaceModel flat = flat_surface(model, *size);
+  const std::shared_ptr<const SizeField> asked =
+      problem.metric.asks() ? nullptr : planar_base_size(problem.size, model, warnings);
+  const auto make = [&](double least) {
+    return flat_surface(model, *size_by([&](const Vec3& x, int& hint) {
+                          return asked ? std::max(kEdge * asked->at(x, hint), least * diagonal)
+                                       : kMetricEdge * diagonal;
+                        }));
+  };
+  SurfaceModel flat;
+  try {
+    flat = make(kLeastEdge);
+  } catch (const InputError&) {
+    flat = make(kShortest);
+  }
   flat.fine.unit = problem.surface.unit;
   flat.warnings.insert(flat.warnings.begin(), model.notes.begin(), model.notes.end());
   return flat;

@@ -58,7 +58,7 @@ struct FoundPlanes {
 /// Returns the planes at which a model is symmetric: those that are given, or those that are found. These go
 /// through the middle of the model or the centroid of its surface. If several are equally good, planes
 /// perpendicular to x, y and z come first. A warning says that there is none, and which item that is embedded
-/// spoils one. `is_flat`: the model is a flat_model(), so that planes are perpendicular to z = 0 and pieces
+/// spoils one. `is_flat`: the model is a flat_surface(), so that planes are perpendicular to z = 0 and pieces
 /// match to kTouch. Throws InputError for given planes at which it is not symmetric, naming the part without
 /// an image and its distance.
 FoundPlanes find_symmetry_planes(const SymmetrySpec& spec, const SurfaceModel& model, bool is_flat,
