@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "base/sort_unique.h"
@@ -191,13 +192,13 @@ SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
   model.loose = std::move(loose);
   const auto [piece_curves, of_curve] = lines_of_pieces(domain, model);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh);
+  std::set<std::pair<int, int>> known;  // curves in faces
   for (std::size_t l = 0; l < mesh.lines.size(); ++l) {
     const int curve = mesh.line_curve[l];
-    if (l > 0 && mesh.line_curve[l - 1] == curve) continue;
     const auto beside = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]);
     if (beside.size() != 2) continue;
     const int face = region_of(mesh, beside[0].element);
-    if (region_of(mesh, beside[1].element) != face) continue;
+    if (region_of(mesh, beside[1].element) != face || !known.insert({curve, face}).second) continue;
     const auto& of_model = domain.model_curves[of_curve[curve]];
     const bool is_crack = std::ranges::any_of(of_model, [&](int c) { return given.curves[c].is_crack; });
     model.embedded.push_back({curve, face, false, is_crack});
