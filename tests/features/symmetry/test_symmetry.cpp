@@ -207,6 +207,19 @@ TEST(Symmetry, AxesAreNoCurvesUnlessTheModelHasThem) {
   expect_mirrored(ribbed.mesh, about_x2);
 }
 
+TEST(Symmetry, CracksMayCrossRegionsAndThePlane) {
+  PlanarModel model = symmetric_plate();
+  model.curves.push_back({make_segment({1.4, 0.9}, {2.6, 0.9}), "crack", {}, true});
+  const MeshResult r = mesh(symmetric_problem(model, 0.11, {{{{2, 0, 0}, {1, 0, 0}}}}), "DBCO");
+  EXPECT_TRUE(r.soundness.sound()) << r.soundness.text();
+  double length = 0;
+  for (std::size_t l = 0; l < r.mesh.lines.size(); ++l)
+    if (has_name(r.mesh.curves[r.mesh.line_curve[l]], "crack"))
+      length += norm(r.mesh.points[r.mesh.lines[l][1]] - r.mesh.points[r.mesh.lines[l][0]]);
+  EXPECT_NEAR(length, 2 * 1.2, 1e-9);  // both lips
+  expect_mirrored(r.mesh, about_x2);
+}
+
 TEST(Symmetry, SeedsTurnThePlanes) {
   MeshProblem problem = symmetric_problem(symmetric_plate(), 0.11, {{{{2, 0, 0}, {1, 0, 0}}}});
   problem.seed = 5;
