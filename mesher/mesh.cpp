@@ -248,8 +248,8 @@ const std::vector<Quality>& quality_registry() {
            .set("regularity.rounds", 1)
            .set("regularity.tolerance", 0.0)
            .set("repair.across_cuts", false)},
-      {"best", "DBCQRO", CrossKind::kSizeAware, best},
-      {"regular", "DBCQRO", CrossKind::kSizeAware, Options(best).set("regularity.weight", 3.0)},
+      {"best", "DBQRO", CrossKind::kSizeAware, best},
+      {"regular", "DBQRO", CrossKind::kSizeAware, Options(best).set("regularity.weight", 3.0)},
   };
   return registry;
 }
