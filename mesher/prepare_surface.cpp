@@ -285,9 +285,13 @@ class SurfaceSteps final : public ModelSteps {
     for (const int face : selected_faces(problem_.surface.faces, where, model_.fine))
       selected_.insert(model_.fine.regions[face].tag);
     if (problem_.metric.asks()) {
-      asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
+      const auto metric = [&] {
+        return std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
+      };
+      asked_ = metric();
       model_ = join_curves(problem_, *asked_, std::move(model_));
-      asked_ = std::make_shared<SurfaceMetric>(model_, wanted_metric(problem_, model_, {}));
+      imprint(model_, *asked_);
+      asked_ = metric();
       return;
     }
     const SampleDomain domain = {Box<Vec3>::around(model_.fine.points), &model_.fine};
