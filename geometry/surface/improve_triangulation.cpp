@@ -12,7 +12,6 @@
 
 #include "base/cancel.h"
 #include "base/sort_unique.h"
-#include "geometry/surface/chart.h"
 #include "geometry/surface/surface_editor.h"
 
 namespace delquad {
@@ -90,12 +89,7 @@ class Improver {
     return rule_ == nullptr ? length(e) : rule_->length(face, e.first, e.second, length(e));
   }
 
-  double cotangent(int at, int b, int c, int face) const {
-    if (rule_ != nullptr && rule_->has_lengths()) {
-      const auto [p, q, r] = corners_at(
-          {length_in(face, edge(b, c)), length_in(face, edge(c, at)), length_in(face, edge(at, b))});
-      return dot(q - p, r - p) / norm(cross(q - p, r - p));
-    }
+  double cotangent(int at, int b, int c) const {
     const Vec3 u = point(b) - point(at), v = point(c) - point(at);
     return dot(u, v) / std::max(norm(cross(u, v)), std::numeric_limits<double>::min());
   }
@@ -115,7 +109,9 @@ class Improver {
   /// not turn further away from the triangles.
   bool should_flip(int a, int b, int c, int d, int face) const {
     constexpr double kTie = 1e-6;  // cocircular points stay as they are
-    if (cotangent(c, a, b, face) + cotangent(d, a, b, face) > -kTie) return false;
+    const double sum = rule_ != nullptr && rule_->has_lengths() ? rule_->cotangents(face, {a, b, c, d})
+                                                                : cotangent(c, a, b) + cotangent(d, a, b);
+    if (sum > -kTie) return false;
     const Vec3 old_normals[] = {normal(a, b, c, kThin), normal(b, a, d, kThin)};
     const Vec3 new_normals[] = {normal(a, d, c, kFlat), normal(b, c, d, kFlat)};
     const double limit = model_.projector ? kTurnSmooth : kTurnExact;
@@ -199,11 +195,16 @@ class Improver {
 
   void consider(int t) {
     const int face = mesh_.triangle_region[t];
-    Edge longest = side(t, 0);
-    for (int k = 1; k < 3; ++k)
-      if (length_in(face, side(t, k)) > length_in(face, longest)) longest = side(t, k);
-    const double l = length_in(face, longest);
-    if (is_too_large(t, l)) candidates_.push({l, longest.first, longest.second});
+    std::array<double, 3> lengths;
+    for (int k = 0; k < 3; ++k) lengths[k] = length_in(face, side(t, k));
+    if (!is_too_large(t, std::ranges::max(lengths))) return;
+    int longest = -1;
+    for (int k = 0; k < 3; ++k)
+      if ((longest < 0 || lengths[k] > lengths[longest]) &&
+          (rule_ == nullptr || rule_->may_split(face, side(t, k).first, side(t, k).second)))
+        longest = k;
+    const auto [a, b] = side(t, longest);
+    candidates_.push({lengths[longest], a, b});
   }
 
   // Sets the largest length of sides for each triangle. Halves keep it, since needles around a pole are
@@ -227,6 +228,9 @@ class Improver {
       candidates_.pop();
       const std::vector<int> on_edge = editor_.triangles_on(a, b);
       if (on_edge.empty()) continue;  // split or flipped already
+      if (rule_ != nullptr && rule_->has_lengths() &&
+          std::ranges::none_of(on_edge, [&](int t) { return is_too_large(t, l); }))
+        continue;
       if (rule_ == nullptr)
         for (int t : on_edge) target_.push_back(target_[t]);
       const int face = mesh_.triangle_region[on_edge[0]];

@@ -33,14 +33,22 @@ class RefinementRule {
   /// -1: it is no line. It must be false for small triangles, or refinement does not end.
   virtual bool is_too_large(int face, const std::array<int, 3>& nodes,
                             const std::array<int, 3>& curve) const = 0;
-  /// Returns the length of a side, which decides on the longest side and on flips. `in_space` is its length
-  /// in space.
+  /// Returns whether a side of such a triangle may be split; the longest of these is.
+  virtual bool may_split([[maybe_unused]] int face, [[maybe_unused]] int a, [[maybe_unused]] int b) const {
+    return true;
+  }
+  /// Returns the length of a side, which decides on the longest side. `in_space` is its length in space.
   virtual double length([[maybe_unused]] int face, [[maybe_unused]] int a, [[maybe_unused]] int b,
                         double in_space) const {
     return in_space;
   }
-  /// Returns whether length() differs from lengths in space.
+  /// Returns whether length() and cotangents() differ from those in space.
   virtual bool has_lengths() const { return false; }
+  /// Returns the sum of the cotangents at c and d, opposite to the edge a-b of two triangles of a face.
+  virtual double cotangents([[maybe_unused]] int face,
+                            [[maybe_unused]] const std::array<int, 4>& abcd) const {
+    return 0;
+  }
   /// Called after a node was put on the middle of side a-b of a triangle of the face; `curve` as above.
   virtual void node_added(int node, int a, int b, int face, int curve) = 0;
 };

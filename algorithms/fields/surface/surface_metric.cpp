@@ -29,7 +29,11 @@ constexpr double kMostShorter = 1.5;
 constexpr double kGradation = 1.5;
 /// Relative amount by which a tensor may be below the demand of gradation.
 constexpr double kGraded = 1e-3;
-constexpr int kMostSweeps = 200, kMostRefinings = 4, kMostScalings = 20;
+constexpr int kMostSweeps = 200, kMostRefinings = 60, kMostScalings = 20;
+/// Growth of the number of points after which the metric is composed anew.
+constexpr double kMostGrowth = 1.5;
+/// Share of points below which more of them are not worth to compose the metric anew.
+constexpr double kFewAdded = 0.01;
 /// Relative tolerance of the complexity.
 constexpr double kNearComplexity = 0.005;
 /// Limits of sides in the metric. Sides are halved if they are longer than kShortest and lengths along them
@@ -42,6 +46,16 @@ constexpr std::size_t kMostPoints = 4'000'000;
 /// point to point, so lengths would become ever smaller there.
 Tensor2 finer_of(const Tensor2& a, const Tensor2& b) {
   return limited(intersection(a, b), {.min = std::min(axes_of(a).h1, axes_of(b).h1)});
+}
+
+/// Makes a tensor finer if it is below a demand. Returns whether it changed.
+bool make_finer(Tensor2& m, const Tensor2& most) {
+  if (is_finer(m, times(1 - kGraded, most))) return false;
+  // It may stay below the demand, and should not be changed again and again then.
+  const Tensor2 finer = finer_of(m, most);
+  if (is_finer(m, times(1 - kGraded, finer))) return false;
+  m = finer;
+  return true;
 }
 
 }  // namespace
@@ -62,18 +76,25 @@ SurfaceMetric::SurfaceMetric(const SurfaceModel& model, const WantedMetric& want
       normal = normal + get<2>(corners[i]);
     add(face, node, fine.points[node], normal);
   }
-  const double asked = wanted_.spec.complexity;
-  for (int i = 0; i < kMostScalings; ++i) {
-    check_cancelled();
-    compose(model);
-    if (!(asked > 0)) break;
-    double complexity = 0;
-    for (int t = 0; t < std::ssize(fine.triangles); ++t) complexity += area(fine, t);
-    complexity *= wanted_.spec.scale * wanted_.spec.scale;
-    if (std::abs(complexity / asked - 1) < kNearComplexity) break;
-    scale_ *= std::clamp(std::sqrt(complexity / asked), 0.5, 2.0);
-  }
+  for (int i = 0; i < kMostScalings && !compose(model); ++i) check_cancelled();
   make_pieces(fine);
+}
+
+/// Composes the metric by the scale that the complexity so far asks for. Returns whether the complexity is as
+/// asked then.
+bool SurfaceMetric::compose(const SurfaceModel& model) {
+  const double asked = wanted_.spec.complexity;
+  if (asked > 0 && complexity_ > 0) scale_ *= std::clamp(std::sqrt(complexity_ / asked), 0.5, 2.0);
+  for (Site& site : sites_) site.metric.m = within_limits(site.given.m, model.fine.points[site.node]);
+  const bool grows = wanted_.spec.gradation > 1 || wanted_.spec.chord > 0;
+  std::vector<char> is_less(sites_.size(), grows ? 1 : 0);
+  follow_curves(model, is_less);
+  grade(model.fine, std::move(is_less));
+  if (!(asked > 0)) return true;
+  complexity_ = 0;
+  for (int t = 0; t < std::ssize(model.fine.triangles); ++t) complexity_ += area(model.fine, t);
+  complexity_ *= wanted_.spec.scale * wanted_.spec.scale;
+  return std::abs(complexity_ / asked - 1) < kNearComplexity;
 }
 
 int SurfaceMetric::add(int face, int node, const Vec3& x, const Vec3& normal) {
@@ -163,14 +184,6 @@ void SurfaceMetric::follow_curves(const SurfaceModel& model, std::vector<char>& 
     }
 }
 
-void SurfaceMetric::compose(const SurfaceModel& model) {
-  for (Site& site : sites_) site.metric.m = within_limits(site.given.m, model.fine.points[site.node]);
-  const bool grows = wanted_.spec.gradation > 1 || wanted_.spec.chord > 0;
-  std::vector<char> is_less(sites_.size(), grows ? 1 : 0);
-  follow_curves(model, is_less);
-  grade(model.fine, std::move(is_less));
-}
-
 /// Limits the growth of lengths in sweeps, each from the changes of the one before. By curvature, lengths
 /// grow with the distance in space, so that a length beside a curve soon counts in all directions. Otherwise
 /// they grow with the length in the metric.
@@ -181,6 +194,7 @@ void SurfaceMetric::grade(const Mesh& fine, std::vector<char> is_new) {
     bool is_curve;  ///< two faces at a point of a curve in this direction
     auto key() const { return std::pair(from, to); }
   };
+  if (std::ranges::find(is_new, 1) == is_new.end()) return;
   std::vector<Link> links;
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
@@ -223,8 +237,7 @@ void SurfaceMetric::grade(const Mesh& fine, std::vector<char> is_new) {
         } else {
           most = grown(most, metric_length(way, from, to), gradation);
         }
-        if (is_finer(to.m, times(1 - kGraded, most))) continue;
-        to.m = finer_of(to.m, most);
+        if (!make_finer(to.m, most)) continue;
       }
       is_new[q] = 1;
       is_changed = true;
@@ -312,24 +325,45 @@ double SurfaceMetric::at(const Vec3& x, int& hint) const {
 /// Decides which triangles to split, and gives new points their metric.
 class MetricRule final : public RefinementRule {
  public:
-  MetricRule(const SurfaceModel& model, const WantedMetric& wanted)
-      : fine_(model.fine), metric_(model, wanted), largest_(kLargestSide * diagonal(model.fine)) {}
+  MetricRule(const Mesh& fine, SurfaceMetric& metric)
+      : fine_(fine),
+        metric_(metric),
+        largest_(kLargestSide * diagonal(fine)),
+        most_points_(static_cast<std::size_t>(kMostGrowth * static_cast<double>(fine.points.size()))) {}
 
   int n_added() const { return n_added_; }
   bool has_lengths() const override { return true; }
   double length(int face, int a, int b, double) const override { return metric_.length(fine_, face, a, b); }
+  double cotangents(int face, const std::array<int, 4>& abcd) const override {
+    const TangentMetric& frame = metric_.find(face, abcd[0])->metric;
+    Tensor2 sum{0, 0, 0};
+    std::array<Vec2, 4> x;
+    for (int k = 0; k < 4; ++k) {
+      const SurfaceMetric::Site* site = metric_.find(face, abcd[k]);
+      if (site == nullptr) return 0;  // beyond a line, which stays
+      const Tensor2 m = frame.seen(site->metric);
+      sum = {sum.xx + m.xx, sum.xy + m.xy, sum.yy + m.yy};
+      x[k] = frame.in_plane(fine_.points[abcd[k]] - fine_.points[abcd[0]]);
+    }
+    const auto cotangent = [&](int tip) {
+      const Vec2 p = x[0] - x[tip], q = x[1] - x[tip];
+      return (sum.xx * p.x * q.x + sum.xy * (p.x * q.y + p.y * q.x) + sum.yy * p.y * q.y) /
+             (std::abs(cross(p, q)) * std::sqrt(determinant(sum)));
+    };
+    return cotangent(2) + cotangent(3);
+  }
 
   bool is_too_large(int face, const std::array<int, 3>& nodes, const std::array<int, 3>&) const override {
-    for (int k = 0; k < 3; ++k) {
-      const int a = nodes[(k + 1) % 3], b = nodes[(k + 2) % 3];
-      const TangentMetric &at_a = metric_.find(face, a)->metric, &at_b = metric_.find(face, b)->metric;
-      const Vec3 d = fine_.points[b] - fine_.points[a];
-      const double by_metric = metric_length(d, at_a, at_b);
-      if (by_metric > kLongest || (metric_.wanted_.spec.chord == 0 && norm(d) > largest_) ||
-          (by_metric > kShortest && difference(at_a.m, at_a.seen(at_b)) > kSteepest))
-        return true;
-    }
-    return false;
+    return fine_.points.size() <= most_points_ &&
+           (may_split(face, nodes[0], nodes[1]) || may_split(face, nodes[1], nodes[2]) ||
+            may_split(face, nodes[2], nodes[0]));
+  }
+  bool may_split(int face, int a, int b) const override {
+    const TangentMetric &at_a = metric_.find(face, a)->metric, &at_b = metric_.find(face, b)->metric;
+    const Vec3 d = fine_.points[b] - fine_.points[a];
+    const double by_metric = metric_length(d, at_a, at_b);
+    return by_metric > kLongest || (metric_.wanted_.spec.chord == 0 && norm(d) > largest_) ||
+           (by_metric > kShortest && difference(at_a.m, at_a.seen(at_b)) > kSteepest);
   }
 
   void node_added(int node, int a, int b, int, int) override {
@@ -354,18 +388,24 @@ class MetricRule final : public RefinementRule {
 
  private:
   const Mesh& fine_;
-  SurfaceMetric metric_;
+  SurfaceMetric& metric_;
   double largest_;
+  std::size_t most_points_;  ///< before the metric is composed anew
   int n_added_ = 0;
 };
 
 std::shared_ptr<const SurfaceMetric> refine_for_metric(SurfaceModel& model, const WantedMetric& wanted) {
+  const auto metric = std::make_shared<SurfaceMetric>(model, wanted);
+  // The metric is composed anew whenever there are more points. It is done if nothing is left to halve then.
   for (int round = 0; round < kMostRefinings; ++round) {
-    MetricRule rule(model, wanted);
+    check_cancelled();
+    MetricRule rule(model.fine, *metric);
     refine_triangulation(model, rule);
-    if (rule.n_added() == 0) break;
+    if (!metric->compose(model)) continue;
+    if (rule.n_added() <= kFewAdded * static_cast<double>(model.fine.points.size())) break;
   }
-  return std::make_shared<const SurfaceMetric>(model, wanted);
+  metric->make_pieces(model.fine);
+  return metric;
 }
 
 }  // namespace delquad

@@ -49,6 +49,7 @@ class SurfaceMetric final : public SizeField {
 
  private:
   friend class MetricRule;
+  friend std::shared_ptr<const SurfaceMetric> refine_for_metric(SurfaceModel&, const WantedMetric&);
   struct Site {
     int face, node;
     TangentMetric given, metric;
@@ -63,14 +64,15 @@ class SurfaceMetric final : public SizeField {
   Tensor2 given_at(int face, const Vec3& x, const TangentMetric& frame) const;
   Tensor2 within_limits(const Tensor2& given, const Vec3& x) const;
   double length_for(double curvature) const;
-  void compose(const SurfaceModel& model);
+  bool compose(const SurfaceModel& model);
   void follow_curves(const SurfaceModel& model, std::vector<char>& is_less);
   void grade(const Mesh& fine, std::vector<char> is_new);
   void make_pieces(const Mesh& fine);
   bool shorten_along(Site& site, const Vec3& direction, double most) const;
 
   WantedMetric wanted_;
-  double scale_ = 1;  ///< factor of lengths that gives the wanted complexity
+  double scale_ = 1;       ///< factor of lengths that gives the wanted complexity
+  double complexity_ = 0;  ///< of the metric as composed; 0: not known
   std::vector<Site> sites_;
   std::vector<std::vector<int>> sites_at_;  ///< of each fine point
   std::vector<std::optional<Piece>> pieces_;

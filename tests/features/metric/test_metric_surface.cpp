@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
@@ -98,6 +99,19 @@ TEST(MetricSurface, APlaneInSpaceIsThePlane) {
          m.yy + n.y * n.y, m.yz + n.y * n.z, m.zz + n.z * n.z};
   in_space.metric.in_space = make_nodal_space_metric(nodes, metric);
   EXPECT_EQ(mesh(in_space, "DB").mesh.quads.size(), there.mesh.quads.size());
+}
+
+TEST(MetricSurface, EmbeddedLinesStay) {
+  MeshProblem problem = problem_of(tilted_square({1, 0, 0}, {0, 1, 0}));
+  problem.metric.in_space = [](std::span<const Vec3> points, std::span<Tensor3> metric) {
+    for (std::size_t i = 0; i < points.size(); ++i) metric[i] = {100, 0, 0, 400, 0, 1};
+  };
+  EmbeddedLine& line = problem.surface.embed.emplace_back();
+  line.points = {{0.2, 0.3, 0}, {0.8, 0.6, 0}};
+  line.name = "inside";
+  const MeshResult result = mesh(problem, "DB");
+  EXPECT_TRUE(result.soundness.sound());
+  EXPECT_NEAR(length_named(result.mesh, "inside"), std::hypot(0.6, 0.3), 1e-12);
 }
 
 // A metric without directions is a size: on a sphere all curvatures are one.
