@@ -134,7 +134,7 @@ delquad_module(features/given COLD LINKS base geometry/mesh geometry/planar geom
                features/embedded)
 delquad_module(features/curved LINKS base geometry/mesh geometry/planar geometry/patches metrics features/symmetry features/layers
                PRIVATE Ceres::ceres)
-delquad_module(features/volume LINKS base geometry/mesh metrics features/layers PRIVATE CGAL::CGAL Eigen3::Eigen)
+delquad_module(features/volume LINKS base geometry/mesh metrics features/layers PRIVATE Eigen3::Eigen)
 delquad_module(features/extrusion COLD LINKS base geometry/mesh metrics io PRIVATE Eigen3::Eigen)
 delquad_module(features/curves COLD LINKS base base/matching geometry/mesh geometry/planar geometry/surface geometry/cad algorithms/fields
                algorithms/fields/surface

@@ -2,10 +2,10 @@
 #include "features/volume/body_parts.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "geometry/mesh/cell_shapes.h"
+#include "geometry/mesh/drop_unused_points.h"
 
 namespace delquad {
 
@@ -63,17 +63,12 @@ VoidFaces open_faces(const Mesh& body) {
   return open;
 }
 
-Mesh part_with(const std::vector<Vec3>& points, std::span<const Quad> quads, std::vector<int>& numbers) {
-  Mesh part;
-  std::map<int, int> place;
-  part.quads.assign(quads.begin(), quads.end());
-  for (Quad& quad : part.quads)
-    for (int& v : quad) {
-      const auto [at, is_new] = place.try_emplace(v, static_cast<int>(numbers.size()));
-      if (is_new) numbers.push_back(v), part.points.push_back(points[v]);
-      v = at->second;
-    }
-  return part;
+std::vector<int> keep_used_points(Mesh& part) {
+  const std::vector<int> number = drop_unused_points(part);
+  std::vector<int> had(part.points.size());
+  for (std::size_t v = 0; v < number.size(); ++v)
+    if (number[v] >= 0) had[number[v]] = static_cast<int>(v);
+  return had;
 }
 
 void add_cell(Mesh& mesh, std::span<const int> nodes, int volume) {

@@ -52,8 +52,8 @@ struct VoidFaces {
 /// Returns the faces of the skin and the sides of cells that no other one touches.
 VoidFaces open_faces(const Mesh& body);
 
-/// Returns quads with their points, in the order of use, and the numbers that these had.
-Mesh part_with(const std::vector<Vec3>& points, std::span<const Quad> quads, std::vector<int>& numbers);
+/// Removes the points that no element uses. Returns the numbers that the others had.
+std::vector<int> keep_used_points(Mesh& part);
 /// Appends a cell; the number of nodes tells its shape.
 void add_cell(Mesh& mesh, std::span<const int> nodes, int volume);
 /// Appends all cells of a mesh. Its points have numbers in the other mesh. Where these end, or are -1, points

@@ -93,15 +93,9 @@ class CellMesh {
 /// Moves a vertex until the least quality of its cells stays the same; returns the gain.
 double relocate(CellMesh& mesh, int v);
 
-/// Improves cells by moves of vertices, and by removals and collapses of edges. The least quality never
-/// falls. Own order of known operations.
+/// Improves cells by moves of vertices, and by removals and collapses of edges. Divides hexahedra and prisms
+/// beside poor cells into pyramids and tetrahedra, one by one, where that makes the poor ones better. Removes
+/// free vertices where cells stay good. Own order of known operations.
 void improve(CellMesh& mesh);
-
-/// Divides hexahedra and prisms beside poor cells into pyramids and tetrahedra, one by one, where that makes
-/// the poor ones better.
-void divide_blocks(CellMesh& mesh);
-
-/// Removes free vertices by collapses of edges where cells stay good.
-void coarsen(CellMesh& mesh);
 
 }  // namespace delquad

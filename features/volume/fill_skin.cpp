@@ -64,8 +64,7 @@ class SkinFiller {
     if (const std::vector<int> faces = untangle(skin.points, split_, {}, &where); !faces.empty())
       refuse(
           "the skin crosses itself at {} in {} quads: --glue joins bodies that touch, and smaller sizes keep "
-          "thin "
-          "parts open",
+          "thin parts open [unsound-skin]",
           show_point(where), faces.size());
     find_layers();
   }
@@ -119,38 +118,38 @@ class SkinFiller {
   void tell_layers(ReadNotes& notes) const {
     for (const GrownLayers& grown : grown_) {
       if (grown.least < 1)
-        notes.push_back(fmt::format("layers are lower where there is no room: {:.2g} of their height at {}",
-                                    grown.least, show_point(grown.least_at)));
-      if (grown.n_bare > 0)
         notes.push_back(
-            fmt::format("{} get no layers, one at {}: expected lower layers, or other sizes there",
-                        counted(grown.n_bare, "quad"), show_point(grown.bare_at)));
+            fmt::format("layers are lower where there is no room: {:.2g} of their height at {} [low-layers]",
+                        grown.least, show_point(grown.least_at)));
+      if (grown.n_bare > 0)
+        notes.push_back(fmt::format(
+            "{} get no layers, one at {}: expected lower layers, or other sizes there [low-layers]",
+            counted(grown.n_bare, "quad"), show_point(grown.bare_at)));
     }
   }
 
   /// Adds the cells of a body, or fills `lost` with the sides that fail.
   void fill_body(int body, std::vector<int>& lost) {
-    std::vector<Quad> quads;
+    Mesh part;
+    part.points = result_.points;
     std::vector<char> has_layers;
-    std::vector<int> of_skin;
     for (const BodySide& side : bodies_[body]) {
-      quads.push_back(split_[side.quad]);
+      Quad& quad = part.quads.emplace_back(split_[side.quad]);
+      if (side.is_reversed) std::swap(quad[1], quad[3]);
       if (!heights_.empty()) has_layers.push_back(has_layers_[result_.quad_region[side.quad]]);
     }
-    Mesh part = part_with(result_.points, quads, of_skin);
-    for (std::size_t i = 0; i < quads.size(); ++i)
-      if (bodies_[body][i].is_reversed) std::swap(part.quads[i][1], part.quads[i][3]);
+    const std::vector<int> of_skin = keep_used_points(part);
     if (tets_alone()) part.triangles = halves_of(std::exchange(part.quads, {}));
-    const bool optimizes = options_.cells != VolumeCells::kHexDominant || options_.strategy.ends_with('O');
+    const bool has_hexahedra = options_.cells == VolumeCells::kHexDominant;
+    const bool optimizes = !has_hexahedra || options_.strategy.ends_with('O');
     const auto place_cells = [&](Mesh& rest) {
-      if (options_.cells != VolumeCells::kHexDominant) return;
-      place_hexahedra(rest, options_.strategy);
-      place_prisms(rest);
+      if (has_hexahedra) place_hexahedra(rest, options_.strategy), place_prisms(rest);
     };
-    if (heights_.empty())
-      place_cells(part), lost = fill_around(part, optimizes);
-    else
+    if (!heights_.empty())
       lost = fill_with_layers(part, has_layers, heights_, place_cells, optimizes, grown_.emplace_back());
+    else
+      lost = has_hexahedra ? fill_with_hexahedra(part, options_.strategy, optimizes)
+                           : fill_around(part, optimizes);
     for (int& face : lost) face /= tets_alone() ? 2 : 1;
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
     if (!lost.empty()) return;
@@ -162,7 +161,8 @@ class SkinFiller {
 
   [[noreturn]] void refuse_body(const Body& body, const std::vector<int>& lost) const {
     refuse(
-        "the body cannot be filled at {}: {} of its {} quads allow no cells; expected {}smaller sizes there",
+        "the body cannot be filled at {}: {} of its {} quads allow no cells; expected {}smaller sizes there "
+        "[unsound-skin]",
         show_point(middle_of(result_.points, result_.quads[body[lost[0]].quad])), lost.size(), body.size(),
         tets_alone() ? "" : "'--cells tets', which splits quads, or ");
   }

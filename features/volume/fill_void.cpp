@@ -202,12 +202,7 @@ Filling fill(const Mesh& body, VoidFaces faces, bool is_improved) {
   result.lost = PyramidMaker(mesh, quads).make();
   if (result.lost.empty()) {
     for (std::size_t i = 0; i < n_solids(body); ++i) mesh.add(cell_of(solid_at(body, i).nodes));
-    if (is_improved) {
-      improve(mesh);
-      divide_blocks(mesh);
-      coarsen(mesh);
-      improve(mesh);
-    }
+    if (is_improved) improve(mesh);
   }
   std::set<int> flat;
   for (std::size_t c = 0; c < mesh.cells().size(); ++c) {

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/disjoint_sets.h"
 #include "base/located.h"
 #include "base/text.h"
+#include "features/volume/hexahedra_steps.h"
 #include "geometry/mesh/half_edges.h"
 #include "metrics/cells.h"
 
@@ -24,18 +24,15 @@ struct Shell {
   double volume = 0;    ///< negative: the shell bounds its space from inside
   int normals_out = 0;  ///< sides that the normals leave, less the others
 };
-struct Shells {
-  std::vector<int> of_side;
-  std::vector<Shell> all;
-};
 
-Shells find_shells(const Mesh& skin) {
+/// Returns the shell of each side, and all shells.
+std::pair<std::vector<int>, std::vector<Shell>> find_shells(const Mesh& skin) {
   const int n = static_cast<int>(skin.quads.size());
   DisjointSets spaces(2 * n), parts(n);
   const std::vector<HalfEdge> all = sorted_half_edges(skin);
   for_each_edge(all, [&](std::span<const HalfEdge> sides) {
     if (sides.size() == 1)
-      refuse("the skin is open at the edge from {} to {}: a volume needs a closed skin",
+      refuse("the skin is open at the edge from {} to {}: a volume needs a closed skin [unsound-skin]",
              show_point(skin.points[sides[0].lo]), show_point(skin.points[sides[0].hi]));
     const auto middle = [&](const HalfEdge& side) {
       return middle_of(skin.points, skin.quads[side.element]);
@@ -50,33 +47,26 @@ Shells find_shells(const Mesh& skin) {
       parts.join(one.element, next.element);
     }
   });
-  Shells shells{spaces.places(), {}};
+  const std::vector<int> of_side = spaces.places();
+  std::vector<Shell> all_shells;
   for (int side = 0; side < 2 * n; ++side) {
-    const int number = shells.of_side[side], q = side / 2, sign = side % 2 == 0 ? 1 : -1;
-    if (number == static_cast<int>(shells.all.size())) shells.all.push_back({side, parts.root(q)});
+    const int number = of_side[side], q = side / 2, sign = side % 2 == 0 ? 1 : -1;
+    if (number == static_cast<int>(all_shells.size())) all_shells.push_back({side, parts.root(q)});
     const auto [a, b, c, d] = corners_of(skin.points, skin.quads[q]);
     const Vec3 middle = middle_of(skin.points, skin.quads[q]) - skin.points[0];
-    shells.all[number].volume += sign * dot(cross(b - a, c - a) + cross(c - a, d - a), middle) / 6;
-    shells.all[number].normals_out += sign;
+    all_shells[number].volume += sign * dot(cross(b - a, c - a) + cross(c - a, d - a), middle) / 6;
+    all_shells[number].normals_out += sign;
   }
-  return shells;
+  return {of_side, all_shells};
 }
 
-/// Returns whether a shell of positive volume encloses a point, by the solid angle of its quads.
+/// Returns whether a shell encloses a point off it.
 bool encloses(const Mesh& skin, const std::vector<int>& shell_of, int shell, const Vec3& x) {
-  double angle = 0;
-  for (std::size_t side = 0; side < shell_of.size(); ++side) {
-    if (shell_of[side] != shell) continue;
-    const auto& q = skin.quads[side / 2];
-    for (const int k : {1, 2}) {
-      const Vec3 a = skin.points[q[0]] - x, b = skin.points[q[k]] - x, c = skin.points[q[k + 1]] - x;
-      const double la = norm(a), lb = norm(b), lc = norm(c);
-      const double part = 2 * std::atan2(dot(a, cross(b, c)),
-                                         la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-      angle += side % 2 == 0 ? part : -part;
-    }
-  }
-  return angle > 2 * std::numbers::pi;
+  Mesh around;
+  around.points = skin.points;
+  for (std::size_t side = 0; side < shell_of.size(); ++side)
+    if (shell_of[side] == shell) around.quads.push_back(skin.quads[side / 2]);
+  return Skin(around).contains(x);
 }
 
 }  // namespace
@@ -90,7 +80,7 @@ std::vector<Body> find_bodies(const Mesh& skin, ReadNotes* notes) {
     for (int around = 0; around < n; ++around)
       if (shells[around].volume > std::abs(shells[s].volume) && shells[around].part != shells[s].part &&
           (container[s] < 0 || shells[around].volume < shells[container[s]].volume) &&
-          encloses(skin, of_side, around, skin.points[skin.quads[shells[s].first / 2][0]]))
+          encloses(skin, of_side, around, middle_of(skin.points, skin.quads[shells[s].first / 2])))
         container[s] = around;
   std::vector<Body> bodies;
   for (int s = 0; s < n; ++s) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <array>
 #include <utility>
 #include <vector>
@@ -36,50 +36,41 @@ class Skin {
   BoxTree<Vec3> tree_;
 };
 
+using Axes = std::array<Vec3, 3>;
 /// Three orthogonal directions of unit length, right-handed, and the wanted length of edges along each.
 struct Frame {
-  std::array<Vec3, 3> axes;
+  Axes axes;
   std::array<double, 3> sizes;
 };
 
-/// The coefficients of a frame's polynomial, then of the tensor of sizes.
-using FrameValues = Eigen::Array<double, 21, 1>;
+/// A frame's polynomial of degree four by products of two coordinates, and the tensor of sizes.
+using FrameValues = Eigen::Matrix<double, 6, 7>;
+/// Gives values the polynomial of axes.
+void set_axes(FrameValues& values, const Axes& axes);
 
-/// Frames and sizes: at the skin along normals and sides of quads, inside harmonic.
-///
+/// Calls f(v, w) for the sides of all quads, in both directions.
+template <class F>
+void for_each_side(const Mesh& skin, const F& f) {
+  for (const Quad& q : skin.quads)
+    for (int k = 0; k < 4; ++k) f(q[k], q[(k + 1) % 4]), f(q[(k + 1) % 4], q[k]);
+}
+
+/// Frames and sizes at the skin, along normals and sides of quads.
 /// A frame is the polynomial of degree four that is the sum of (a.x)^4 over its axes a, which no permutation
 /// of axes changes. Means of such polynomials are projected to the nearest frame, as crosses are in the
-/// plane. The Laplace problem lives on the Delaunay tetrahedra of the skin's vertices and of points inside.
-/// Sizes are a tensor; across a smooth skin its value comes from inside.
-class FrameField {
- public:
-  explicit FrameField(const Skin& skin);
+/// plane. Sizes are a tensor; across a smooth skin its value comes from inside.
+struct SkinFrames {
+  explicit SkinFrames(const Mesh& skin);
 
-  /// Returns the median of the sizes at the skin.
-  double usual_size() const { return usual_size_; }
-  const Frame& at_skin(int vertex) const { return frames_[vertex]; }
-  /// Returns a tetrahedron at a vertex of the skin, for at().
-  int cell_at_skin(int vertex) const { return cell_of_[vertex]; }
-  /// Returns the frame at x, with axes near to the axes of `guess`. `cell` is a tetrahedron near x, and
-  /// becomes the one around x; it becomes -1 outside of all.
-  Frame at(const Vec3& x, const Frame& guess, int& cell) const;
+  /// Gives values at a vertex the known sizes along its axes.
+  void keep_known_sizes(FrameValues& at, int vertex) const;
+  /// Returns the frame of values, with axes near a guess.
+  Frame frame_of(const FrameValues& at, const Axes& guess) const;
 
- private:
-  void make_cells();
-  void fix_skin();
-  void diffuse();
-  void set_sizes(Frame& frame, const FrameValues& values) const;
-
-  const Skin& skin_;
-  int n_skin_;
-  double usual_size_ = 0;
-  std::vector<Vec3> points_;
-  std::vector<Quad> cells_, neighbours_;
-  std::vector<int> cell_of_;
-  std::vector<std::vector<std::pair<int, double>>> beside_;  ///< by node, neighbors with weights
-  std::vector<FrameValues> values_;
-  std::vector<Frame> frames_;
-  std::vector<std::array<double, 3>> known_;  ///< by vertex of the skin, sizes along its axes; 0: unknown
+  double usual_size;  ///< median
+  std::vector<FrameValues> values;
+  std::vector<Frame> frames;
+  std::vector<std::array<double, 3>> known;  ///< by vertex, sizes along its axes; 0: unknown
 };
 
 /// Points with their neighbors along the directions of frames.
@@ -98,13 +89,13 @@ enum class Packing {
   kTetrahedra,
 };
 
-/// Returns a lattice that follows the field inside of the skin.
-///
+/// Returns a lattice inside of the skin that follows frames. They are harmonic between the frames of the
+/// skin.
 /// A front starts at the skin, as the front of squares in the plane [remacle2013]. Each point proposes a
 /// point at one size along each direction of the packing. It is kept if no other is too near in the norm of
 /// its frame. Then points move to where their neighbors want them, crowded points go, and the front fills
 /// gaps again.
-Lattice fill_with_points(const Skin& skin, const FrameField& field, Packing packing);
+Lattice fill_with_points(const Skin& skin, Packing packing);
 
 using Hexahedron = std::array<int, 8>;
 

@@ -202,37 +202,7 @@ std::vector<int> cells_at(const CellMesh& mesh, const std::vector<int>& vertices
   return cells;
 }
 
-}  // namespace
-
-double relocate(CellMesh& mesh, int v) {
-  constexpr int kMoves = 12, kHalvings = 8, kHalvingsIfBad = 24;
-  constexpr double kFirst = 0.25, kDifference = 1e-6, kBand = 0.05, kLeastBand = 1e-5, kBad = 0.05;
-  const double before = mesh.least(mesh.at(v)), length = mean_edge(mesh, v);
-  double band = kBand;
-  for (int i = 0; i < kMoves && length > 0; ++i) {
-    const Vec3 way = shortest(gradients(mesh, v, band, kDifference * length));
-    const double steepness = norm(way), least = mesh.least(mesh.at(v));
-    const double wanted = least + kGain * std::min(0.25, std::abs(least));
-    double step = kFirst * length;
-    int left = steepness > 0 ? least > kBad ? kHalvings : kHalvingsIfBad : 0;
-    for (; left > 0; --left, step /= 2) {
-      const Vec3 x = mesh.points()[v] + (step / steepness) * way;
-      if (!(least_with(mesh, v, x, wanted) > wanted)) continue;
-      mesh.move(v, x);
-      break;
-    }
-    if (left > 0) continue;
-    if (least > kGain || band < kLeastBand) break;
-    band /= 10;  // needles have qualities that change over shorter lengths
-  }
-  return mesh.least(mesh.at(v)) - before;
-}
-
-void improve(CellMesh& mesh) {
-  constexpr int kRounds = 10;
-  improve_all(mesh, kRounds, [&] { return all_cells(mesh); });
-}
-
+/// Divides hexahedra and prisms beside poor cells.
 void divide_blocks(CellMesh& mesh) {
   constexpr int kRounds = 3, kLocalRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
@@ -273,6 +243,7 @@ void divide_blocks(CellMesh& mesh) {
   }
 }
 
+/// Removes free vertices by collapses of edges.
 void coarsen(CellMesh& mesh) {
   for (int v = 0; v < static_cast<int>(mesh.points().size()); ++v) {
     if (mesh.at(v).empty() || !mesh.is_free(v)) continue;
@@ -284,6 +255,41 @@ void coarsen(CellMesh& mesh) {
     for (const int w : beside)
       if (w != v && collapse(mesh, v, w, gain)) break;
   }
+}
+
+}  // namespace
+
+double relocate(CellMesh& mesh, int v) {
+  constexpr int kMoves = 12, kHalvings = 8, kHalvingsIfBad = 24;
+  constexpr double kFirst = 0.25, kDifference = 1e-6, kBand = 0.05, kLeastBand = 1e-5, kBad = 0.05;
+  const double before = mesh.least(mesh.at(v)), length = mean_edge(mesh, v);
+  double band = kBand;
+  for (int i = 0; i < kMoves && length > 0; ++i) {
+    const Vec3 way = shortest(gradients(mesh, v, band, kDifference * length));
+    const double steepness = norm(way), least = mesh.least(mesh.at(v));
+    const double wanted = least + kGain * std::min(0.25, std::abs(least));
+    double step = kFirst * length;
+    int left = steepness > 0 ? least > kBad ? kHalvings : kHalvingsIfBad : 0;
+    for (; left > 0; --left, step /= 2) {
+      const Vec3 x = mesh.points()[v] + (step / steepness) * way;
+      if (!(least_with(mesh, v, x, wanted) > wanted)) continue;
+      mesh.move(v, x);
+      break;
+    }
+    if (left > 0) continue;
+    if (least > kGain || band < kLeastBand) break;
+    band /= 10;  // needles have qualities that change over shorter lengths
+  }
+  return mesh.least(mesh.at(v)) - before;
+}
+
+void improve(CellMesh& mesh) {
+  constexpr int kRounds = 10;
+  const auto all = [&] { return all_cells(mesh); };
+  improve_all(mesh, kRounds, all);
+  divide_blocks(mesh);
+  coarsen(mesh);
+  improve_all(mesh, kRounds, all);
 }
 
 }  // namespace delquad

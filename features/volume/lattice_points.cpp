@@ -23,7 +23,9 @@ constexpr double kNearSkin = 0.5, kCrowdsSkin = 0.35;
 constexpr double kThin = 0.15;
 /// Distance below which one of two points goes, in sizes.
 constexpr double kCrowded = 0.5;
-constexpr int kRounds = 3, kMoves = 8;
+constexpr int kRounds = 5, kMoves = 8;
+/// Sweeps that make frames harmonic, each time.
+constexpr int kSweeps = 20;
 
 /// Half of the twelve neighbors in a packing of tetrahedra, along the axes of a frame; the others are
 /// opposite.
@@ -50,19 +52,15 @@ class Neighbours {
   int number() const { return 2 * half(); }
   /// Returns the most points that may serve along a direction.
   std::size_t most_beside() const { return are_cubes_ ? 3 : 1; }
-  int opposite(int direction) const { return (direction + half()) % number(); }
   Vec3 step(const Frame& f, int direction) const {
     const Vec3& c = half_[direction % half()];
     const Vec3 v =
         (c.x * f.sizes[0]) * f.axes[0] + (c.y * f.sizes[1]) * f.axes[1] + (c.z * f.sizes[2]) * f.axes[2];
     return direction < half() ? v : -1.0 * v;
   }
-  /// Returns the mean of the ways by two frames: of directions and of lengths.
+  /// Returns the mean of the ways by two frames.
   Vec3 step(const Frame& f, const Frame& g, int direction) const {
-    if (!are_cubes_) return 0.5 * (step(f, direction) + step(g, direction));
-    const int k = direction % 3;
-    const Vec3 mid = f.axes[k] + g.axes[k];
-    return ((direction < 3 ? 0.5 : -0.5) * (f.sizes[k] + g.sizes[k]) / norm(mid)) * mid;
+    return 0.5 * (step(f, direction) + step(g, direction));
   }
   int nearest(const Frame& f, const Vec3& v) const {
     const Vec3 u = in_sizes(are_cubes_ ? Frame{f.axes, {1, 1, 1}} : f, v);
@@ -134,13 +132,15 @@ double reach_of(const Frame& f, double distance) {
 
 class PointFront {
  public:
-  PointFront(const Skin& skin, const FrameField& field, Packing packing)
+  PointFront(const Skin& skin, Packing packing)
       : neighbours_(packing),
         skin_(skin),
-        field_(field),
+        at_skin_(skin.body()),
         n_skin_(static_cast<int>(skin.body().points.size())),
-        grid_(field.usual_size()) {
-    for (int v = 0; v < n_skin_; ++v) add(skin.body().points[v], field.at_skin(v), field.cell_at_skin(v));
+        grid_(at_skin_.usual_size) {
+    for (int v = 0; v < n_skin_; ++v) add(skin.body().points[v], at_skin_.values[v], at_skin_.frames[v].axes);
+    find_slots();
+    diffuse();
   }
 
   Lattice fill() {
@@ -148,24 +148,21 @@ class PointFront {
       advance();
       find_slots();
       if (round == kRounds) break;
+      diffuse();
       for (int move = 0; move < kMoves; ++move) relax();
-      for (int p = n_skin_; p < size(); ++p) frames_[p] = field_.at(points_[p], frames_[p], cells_[p]);
+      diffuse();
       thin();
       find_slots();
     }
     Lattice lattice{points_, {}, {}};
     lattice.best.resize(points_.size()), lattice.beside.resize(points_.size());
-    const auto join = [](auto& lists, int p, int q) {
-      lists[p].push_back(q);
-      lists[q].push_back(p);
-    };
+    const auto join = [](auto& lists, int p, int q) { lists[p].push_back(q), lists[q].push_back(p); };
     for (int p = 0; p < size(); ++p)
       for (int d = 0; d < neighbours_.number(); ++d) {
         if (slots_[p][d] >= 0) join(lattice.best, p, slots_[p][d]);
         for (const int q : candidates(p, d)) join(lattice.beside, p, q);
       }
-    for (const auto& q : skin_.body().quads)
-      for (int k = 0; k < 4; ++k) join(lattice.best, q[k], q[(k + 1) % 4]);
+    for_each_side(skin_.body(), [&](int v, int w) { lattice.best[v].push_back(w); });
     for (std::size_t p = 0; p < points_.size(); ++p) {
       sort_unique(lattice.best[p]);
       lattice.beside[p].insert(lattice.beside[p].end(), lattice.best[p].begin(), lattice.best[p].end());
@@ -177,12 +174,48 @@ class PointFront {
  private:
   int size() const { return static_cast<int>(points_.size()); }
 
-  void add(const Vec3& x, const Frame& frame, int cell) {
+  void add(const Vec3& x, const FrameValues& values, const Axes& guess) {
     grid_.add(size(), x);
     points_.push_back(x);
-    frames_.push_back(frame);
-    cells_.push_back(cell);
+    values_.push_back(values);
+    frames_.push_back(at_skin_.frame_of(values, guess));
     slots_.push_back(kNone);
+  }
+
+  /// Returns the mean of the values at points near x, with weights of inverse squares of distances.
+  FrameValues values_near(const Vec3& x, const Frame& f) const {
+    FrameValues sum = FrameValues::Zero();
+    double total = 0;
+    const double reach = reach_of(f, 1);
+    grid_.near(x, reach, [&](int q) {
+      const Vec3 e = points_[q] - x;
+      const double d2 = dot(e, e);
+      if (d2 > reach * reach) return;
+      const double weight = 1 / std::max(d2, 1e-6 * reach * reach);
+      sum += weight * values_[q], total += weight;
+    });
+    return sum / total;
+  }
+
+  /// Makes frames and sizes inside harmonic.
+  void diffuse() {
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+      for (int p = 0; p < size(); ++p) {
+        FrameValues sum = FrameValues::Zero();
+        int n = 0;
+        for (const int q : slots_[p])
+          if (q >= 0) sum += values_[q], ++n;
+        if (n == 0) continue;
+        sum /= n;
+        if (p >= n_skin_)
+          values_[p] = sum;
+        else
+          values_[p].col(6) = sum.col(6), at_skin_.keep_known_sizes(values_[p], p);
+      }
+    for (int p = 0; p < size(); ++p) {
+      frames_[p] = at_skin_.frame_of(values_[p], frames_[p].axes);
+      set_axes(values_[p], frames_[p].axes);
+    }
   }
 
   /// Returns the point nearest to x in the norm of `frame`, without `own`, and its distance.
@@ -209,9 +242,8 @@ class PointFront {
         if (slots_[p][d] >= 0) continue;
         const Frame& own = frames_[p];
         Vec3 x = points_[p] + neighbours_.step(own, d);
-        int cell = cells_[p];
-        Frame there = field_.at(x, own, cell);
-        if (cell < 0) continue;
+        const FrameValues values = values_near(x, own);
+        const Frame there = at_skin_.frame_of(values, own.axes);
         x = points_[p] + neighbours_.step(own, there, d);
         const auto [q, distance] = nearest(x, there, kNear, p);
         if (q >= 0) {
@@ -220,24 +252,19 @@ class PointFront {
         }
         const double gap = kNearSkin * least(there);
         if (skin_.distance(x, gap) < gap || !skin_.contains(x)) continue;
-        there = field_.at(x, there, cell);
-        if (cell < 0) continue;
-        add(x, there, cell);
-        slots_[p][d] = size() - 1;
-        slots_.back()[neighbours_.opposite(d)] = p;
+        add(x, values, there.axes);
+        link(p, d, size() - 1);
       }
   }
 
   /// Sets the slots anew by places; on the skin along sides of quads first.
   void find_slots() {
     for (auto& slots : slots_) slots = kNone;
-    for (const auto& q : skin_.body().quads)
-      for (int k = 0; k < 4; ++k)
-        for (const auto& [v, w] : {std::pair(q[k], q[(k + 1) % 4]), {q[(k + 1) % 4], q[k]}}) {
-          const Vec3 e = points_[w] - points_[v];
-          int& slot = slots_[v][neighbours_.nearest(frames_[v], e)];
-          if (slot < 0 || dot(points_[slot] - points_[v], e) < 0) slot = w;
-        }
+    for_each_side(skin_.body(), [&](int v, int w) {
+      const Vec3 e = points_[w] - points_[v];
+      int& slot = slots_[v][neighbours_.nearest(frames_[v], e)];
+      if (slot < 0 || dot(points_[slot] - points_[v], e) < 0) slot = w;
+    });
     for (int p = 0; p < size(); ++p)
       for (int d = 0; d < neighbours_.number(); ++d) {
         if (slots_[p][d] >= 0) continue;
@@ -291,7 +318,7 @@ class PointFront {
   }
 
   void rebuild_grid() {
-    grid_ = PointGrid(field_.usual_size());
+    grid_ = PointGrid(at_skin_.usual_size);
     for (int p = 0; p < size(); ++p) grid_.add(p, points_[p]);
   }
 
@@ -301,7 +328,7 @@ class PointFront {
     std::vector<char> goes(points_.size(), 0);
     for (int p = n_skin_; p < size(); ++p) {
       const double gap = kCrowdsSkin * least(frames_[p]);
-      goes[p] = cells_[p] < 0 || skin_.distance(points_[p], gap) < gap || !skin_.contains(points_[p]);
+      goes[p] = skin_.distance(points_[p], gap) < gap || !skin_.contains(points_[p]);
     }
     for (int p = n_skin_; p < size(); ++p) {
       if (goes[p]) continue;
@@ -314,27 +341,25 @@ class PointFront {
     int kept = 0;
     for (int p = 0; p < size(); ++p) {
       if (goes[p]) continue;
-      points_[kept] = points_[p], frames_[kept] = frames_[p], cells_[kept++] = cells_[p];
+      points_[kept] = points_[p], frames_[kept] = frames_[p], values_[kept++] = values_[p];
     }
-    points_.resize(kept), frames_.resize(kept), cells_.resize(kept), slots_.resize(kept);
+    points_.resize(kept), frames_.resize(kept), values_.resize(kept), slots_.resize(kept);
     rebuild_grid();
   }
 
   const Neighbours neighbours_;
   const Skin& skin_;
-  const FrameField& field_;
+  const SkinFrames at_skin_;
   const int n_skin_;
   std::vector<Vec3> points_;
   std::vector<Frame> frames_;
-  std::vector<int> cells_;  ///< of the field
+  std::vector<FrameValues> values_;
   std::vector<std::array<int, kMostNeighbours>> slots_;
   PointGrid grid_;
 };
 
 }  // namespace
 
-Lattice fill_with_points(const Skin& skin, const FrameField& field, Packing packing) {
-  return PointFront(skin, field, packing).fill();
-}
+Lattice fill_with_points(const Skin& skin, Packing packing) { return PointFront(skin, packing).fill(); }
 
 }  // namespace delquad

@@ -14,6 +14,7 @@
 #include "base/cancel.h"
 #include "base/parallel_each.h"
 #include "base/sort_unique.h"
+#include "features/volume/hexahedra_steps.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/nearest_triangle.h"
 #include "metrics/cells.h"
@@ -25,7 +26,7 @@ namespace {
 /// Most that heights change by length along the skin.
 constexpr double kSlope = 0.5;
 /// Layers end where less of their height is left.
-constexpr double kLeastScale = 0.02;
+constexpr double kLeastScale = 0.02, kLeastOfSheet = 0.3;
 /// Most that points between planes move, in heights: between planes 47 degrees apart.
 constexpr double kLongest = 2.5;
 /// Quads see a direction if its cosine with their normals is at least this.
@@ -73,10 +74,13 @@ std::optional<NearestTriangle> nearest_of(const Mesh& body, const std::vector<ch
 
 class LayerGrower {
  public:
-  LayerGrower(const Mesh& body, const std::vector<char>& has_layers, std::span<const double> heights)
+  /// Heights are at most a part of the mean side of quads at a point; 0: any.
+  LayerGrower(const Mesh& body, const std::vector<char>& has_layers, std::span<const double> heights,
+              double most_of_sides = 0)
       : body_(body),
         has_layers_(has_layers),
         heights_(heights),
+        least_scale_(most_of_sides > 0 ? kLeastOfSheet : kLeastScale),
         spokes_(body.points.size()),
         at_(body.points.size()) {
     for (std::size_t q = 0; q < body.quads.size(); ++q)
@@ -87,6 +91,12 @@ class LayerGrower {
       }
     find_directions();
     find_rows();
+    for (std::size_t v = 0; v < at_.size() && most_of_sides > 0; ++v) {
+      double length = 0;
+      for (const Spoke& s : spokes_[v]) length += norm(body.points[s.next] - body.points[v]);
+      const double n = static_cast<double>(spokes_[v].size());
+      at_[v].most = at_[v].limit = std::min(1.0, most_of_sides * length / n / heights.back());
+    }
     find_room();
   }
 
@@ -114,10 +124,8 @@ class LayerGrower {
     return any;
   }
 
-  /// The body without layers, whose points are `points_of_rest`. Its last quads are folded.
-  Mesh rest(std::vector<int>& points_of_rest) const {
-    return part_with(cells_.points, front_, points_of_rest);
-  }
+  /// The quads around the body without layers, the folded ones last.
+  const std::vector<Quad>& front() const { return front_; }
   /// Splits folded quads of a front into triangles.
   void split_folded(std::vector<Quad>& quads, std::vector<Triangle>& triangles) const {
     triangles = halves_of(std::span(quads).subspan(n_flat_));
@@ -151,6 +159,7 @@ class LayerGrower {
     Kind kind = Kind::kOff;
     Vec3 move;          ///< for a height of 1
     double seen = 1;    ///< least height above planes of quads, for a height of 1
+    double most = 1;    ///< wanted part of the height
     double limit = 1;   ///< most part of the height
     double height = 0;  ///< of all layers
     int shrinks = 0;
@@ -286,8 +295,8 @@ class LayerGrower {
         return walls->find(body_.points[v] + (1 + kApart) * top, own).distance >= own &&
                (!others || others->find(body_.points[v] + top, kOther * height).distance >= kOther * height);
       };
-      if (fits(1)) return;
-      double low = 0, high = 1;
+      if (fits(at.limit)) return;
+      double low = 0, high = at.limit;
       for (int i = 0; i < kSteps; ++i) {
         const double middle = 0.5 * (low + high);
         (fits(middle) ? low : high) = middle;
@@ -330,7 +339,7 @@ class LayerGrower {
     }
     bool any = false;
     for (Place& at : at_)
-      if (at.kind == Kind::kFree && at.height < kLeastScale * heights_.back())
+      if (at.kind == Kind::kFree && at.height < least_scale_ * at.most * heights_.back())
         at.kind = Kind::kEnd, any = true;
     return any;
   }
@@ -473,6 +482,7 @@ class LayerGrower {
   const Mesh& body_;
   const std::vector<char>& has_layers_;
   std::span<const double> heights_;
+  const double least_scale_;                ///< part of the wanted height below which layers end
   std::vector<std::vector<Spoke>> spokes_;  ///< by point
   std::vector<Place> at_;                   ///< by point
   std::vector<Rim> rims_;
@@ -484,14 +494,51 @@ class LayerGrower {
 
 }  // namespace
 
+std::vector<int> fill_with_hexahedra(Mesh& body, const std::string& strategy, bool improve) {
+  constexpr double kPart = 0.4, kGain = 1.02;
+  constexpr std::size_t kThick = 2;  // hexahedra for each quad of the skin
+  const auto filled = [](const Mesh& mesh) {
+    double sum = 0;
+    for (const auto& hex : mesh.hexahedra)
+      sum += signed_volume(corners_of(mesh.points, hex)) * scaled_jacobian(corners_of(mesh.points, hex));
+    return sum;
+  };
+  Mesh inside = body;
+  place_hexahedra(body, strategy);
+  if (body.hexahedra.size() < kThick * body.quads.size() && !open_faces(body).owners.empty()) {
+    const std::vector<double> heights = {diagonal(inside.points)};
+    const std::vector<char> all(inside.quads.size(), 1);
+    LayerGrower grower(inside, all, heights, kPart);
+    grower.grow();
+    Mesh rest;
+    rest.points = inside.points = grower.cells().points, rest.quads = grower.front();
+    const std::vector<int> numbers = keep_used_points(rest);
+    place_hexahedra(rest, strategy);
+    for (std::size_t i = 0; i < n_solids(grower.cells()); ++i)
+      if (const auto nodes = solid_at(grower.cells(), i).nodes; nodes.size() > 5) add_cell(inside, nodes, 0);
+    add_cells(inside, rest, numbers, 0);
+    const double wanted = kGain * filled(body);
+    if (filled(inside) > wanted) {
+      place_prisms(inside);
+      Mesh plain = inside;  // repairs of poor cells take most of the time
+      if (fill_around(plain, false).empty() && filled(plain) > wanted &&
+          fill_around(inside, improve).empty() && filled(inside) > wanted)
+        return body = std::move(inside), std::vector<int>{};
+    }
+  }
+  place_prisms(body);
+  return fill_around(body, improve);
+}
+
 std::vector<int> fill_with_layers(Mesh& body, const std::vector<char>& has_layers,
                                   std::span<const double> heights, const std::function<void(Mesh&)>& place,
                                   bool improve, GrownLayers& grown) {
   LayerGrower grower(body, has_layers, heights);
   while (true) {
     grower.grow();
-    std::vector<int> points;
-    Mesh rest = grower.rest(points);
+    Mesh rest;
+    rest.points = grower.cells().points, rest.quads = grower.front();
+    const std::vector<int> points = keep_used_points(rest);
     place(rest);
     grower.split_folded(rest.quads, rest.triangles);
     std::vector<int> lost = fill_around(rest, improve);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "base/located.h"
 #include "base/sort_unique.h"
@@ -20,12 +19,11 @@ namespace {
 struct Placement {
   const Mesh& body;
   Skin skin{body};
-  FrameField field{skin};
   Lattice lattice = {};
   Mesh placed = {};  ///< the quads and the hexahedra between points of the lattice
 
   void add_points(Packing packing) {
-    lattice = fill_with_points(skin, field, packing);
+    lattice = fill_with_points(skin, packing);
     placed.points = lattice.points, placed.quads = body.quads;
   }
   std::vector<Hexahedron> between(const std::vector<std::vector<int>>& beside) const {
@@ -91,9 +89,8 @@ void place_hexahedra(Mesh& volume, const std::string& strategy) {
   Placement placement{volume};
   for (const char letter : strategy) std::ranges::find(kStages, letter, &VolumeStage::letter)->run(placement);
   separate_sides(placement.placed);
-  std::vector<int> numbers(volume.points.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
-  add_cells(volume, placement.placed, numbers, 0);
+  volume.points = placement.placed.points, volume.hexahedra = placement.placed.hexahedra;
+  drop_cells(volume, {});
 }
 
 }  // namespace delquad

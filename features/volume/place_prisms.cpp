@@ -21,41 +21,33 @@ std::array<Quad, 3> quads_of(const Prism& p) {
   return {{{p[0], p[1], p[4], p[3]}, {p[1], p[2], p[5], p[4]}, {p[2], p[0], p[3], p[5]}}};
 }
 
-std::vector<Prism> find_prisms(const std::map<Quad, Quad>& open) {
-  std::map<std::array<int, 2>, std::vector<Quad>> at;  // by directed first side
-  for (const auto& [key, quad] : open)
-    for (int k = 0; k < 4; ++k)
-      at[{quad[k], quad[(k + 1) % 4]}].push_back(
-          {quad[k], quad[(k + 1) % 4], quad[(k + 2) % 4], quad[(k + 3) % 4]});
-  std::vector<Prism> prisms;
-  for (const auto& [key, quad] : open)
-    for (const int k : {0, 1}) {
-      const int a = quad[k], b = quad[k + 1], e = quad[k + 2], d = quad[(k + 3) % 4];
-      const auto found = at.find({e, b});
-      if (found == at.end()) continue;
-      for (const auto& [unused_e, unused_b, c, f] : found->second) {
-        const Prism prism = {a, b, c, d, e, f};
-        const auto sides = quads_of(prism);
-        const bool is_first = key < side_key(sides[1]) && key < side_key(sides[2]);
-        const auto across = at.find({a, d});
-        if (is_first && across != at.end() && std::ranges::count(across->second, Quad{a, d, f, c}) > 0)
-          prisms.push_back(prism);
-      }
-    }
-  return prisms;
-}
-
 }  // namespace
 
 void place_prisms(Mesh& volume) {
-  std::map<Quad, Quad> open;  // by nodes
-  for (const Quad& quad : open_faces(volume).quads) open.emplace(side_key(quad), quad);
-  std::vector<std::pair<double, Prism>> found;
-  for (const Prism& prism : find_prisms(open)) {
-    const auto corners = corners_of(volume.points, prism);
-    if (const double jacobian = scaled_jacobian(corners); jacobian >= kLeastOfPrisms && is_positive(corners))
-      found.emplace_back(-jacobian, prism);
+  std::map<Quad, Quad> open;                                             // by nodes
+  std::map<std::array<int, 2>, std::vector<std::array<int, 2>>> beyond;  // of directed sides
+  for (const Quad& quad : open_faces(volume).quads) {
+    open.emplace(side_key(quad), quad);
+    for (int k = 0; k < 4; ++k)
+      beyond[{quad[k], quad[(k + 1) % 4]}].push_back({quad[(k + 2) % 4], quad[(k + 3) % 4]});
   }
+  std::vector<std::pair<double, Prism>> found;
+  for (const auto& [key, quad] : open)
+    for (const int k : {0, 1}) {
+      const int a = quad[k], b = quad[k + 1], e = quad[k + 2], d = quad[(k + 3) % 4];
+      for (const auto& [c, f] : beyond[{e, b}]) {
+        const Prism prism = {a, b, c, d, e, f};
+        const auto sides = quads_of(prism);
+        const auto third = open.find(side_key(sides[2]));
+        if (third == open.end() || !same_turn(third->second, sides[2]) || key > side_key(sides[1]) ||
+            key > third->first)
+          continue;
+        const auto corners = corners_of(volume.points, prism);
+        if (const double jacobian = scaled_jacobian(corners);
+            jacobian >= kLeastOfPrisms && is_positive(corners))
+          found.emplace_back(-jacobian, prism);
+      }
+    }
   std::ranges::sort(found);
   for (const auto& [worst, prism] : found) {
     const auto sides = quads_of(prism);

@@ -276,14 +276,26 @@ std::vector<std::vector<int>> rivals_of(const std::vector<Vec3>& points,
 /// the side of each.
 class Choice {
  public:
-  Choice(std::vector<std::vector<int>> rivals, std::vector<std::vector<int>> mates,
-         std::vector<double> side_worth, std::vector<double> worth)
-      : rivals_(std::move(rivals)),
-        mates_(std::move(mates)),
-        side_worth_(std::move(side_worth)),
-        worth_(std::move(worth)),
-        against_(worth_.size(), 0),
-        is_chosen_(worth_.size(), 0) {
+  Choice(const Mesh& body, const std::vector<Hexahedron>& candidates)
+      : rivals_(rivals_of(body.points, candidates)),
+        mates_(candidates.size()),
+        against_(candidates.size(), 0),
+        is_chosen_(candidates.size(), 0) {
+    std::map<Quad, std::vector<int>> by_side;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const auto corners = corners_of(body.points, candidates[i]);
+      const double volume = signed_volume(corners);
+      side_worth_.push_back(kSideWorth * volume);
+      worth_.push_back(volume * (1 + 0.5 * scaled_jacobian(corners)));
+      for (int s = 0; s < 6; ++s) by_side[side_key(side_of(candidates[i], s))].push_back(static_cast<int>(i));
+    }
+    for (const auto& [side, at] : by_side)
+      for (const int i : at)
+        for (const int j : at)
+          if (i != j && !std::ranges::binary_search(rivals_[i], j)) mates_[i].push_back(j);
+    for (const Quad& q : body.quads)
+      if (const auto found = by_side.find(side_key(q)); found != by_side.end())
+        for (const int i : found->second) worth_[i] += 2 * side_worth_[i];
     std::vector<int> all(worth_.size());
     std::iota(all.begin(), all.end(), 0);
     add_best(all);
@@ -409,29 +421,10 @@ std::vector<Hexahedron> find_hexahedra(const std::vector<Vec3>& points,
 }
 
 void select_hexahedra(Mesh& body, const std::vector<Hexahedron>& candidates) {
-  const int n = static_cast<int>(candidates.size());
-  std::vector<std::vector<int>> rivals = rivals_of(body.points, candidates), mates(n);
-  std::map<Quad, std::vector<int>> by_side;
-  for (int i = 0; i < n; ++i)
-    for (int s = 0; s < 6; ++s) by_side[side_key(side_of(candidates[i], s))].push_back(i);
-  for (const auto& [side, at] : by_side)
-    for (const int i : at)
-      for (const int j : at)
-        if (i != j && !std::ranges::binary_search(rivals[i], j)) mates[i].push_back(j);
-  std::vector<double> side_worth, worth;
-  for (const Hexahedron& hex : candidates) {
-    const auto corners = corners_of(body.points, hex);
-    const double volume = signed_volume(corners);
-    side_worth.push_back(kSideWorth * volume);
-    worth.push_back(volume * (1 + 0.5 * scaled_jacobian(corners)));
-  }
-  for (const Quad& q : body.quads)
-    if (const auto found = by_side.find(side_key(q)); found != by_side.end())
-      for (const int i : found->second) worth[i] += 2 * side_worth[i];
-  const Choice choice(std::move(rivals), std::move(mates), std::move(side_worth), std::move(worth));
+  const Choice choice(body, candidates);
   body.hexahedra.clear();
-  for (int i = 0; i < n; ++i)
-    if (choice.has(i)) body.hexahedra.push_back(candidates[i]);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (choice.has(static_cast<int>(i))) body.hexahedra.push_back(candidates[i]);
   drop_cells(body, {});
 }
 

@@ -10,7 +10,6 @@
 
 #include "base/orientation.h"
 #include "base/process.h"
-#include "geometry/mesh/drop_unused_points.h"
 
 namespace delquad {
 
@@ -23,7 +22,7 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double));
 constexpr char kSwitches[] = "pYq1.4/16JQ";
 
 /// Returns the new points and the tetrahedra as bytes; empty: TetGen refuses the input.
-std::string run_tetgen(const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles,
+std::string run_tetgen(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
                        const std::vector<Vec3>& holes) {
   // The structure frees its lists itself, by delete[].
   const auto copy = [](const std::vector<Vec3>& from) {
@@ -34,10 +33,8 @@ std::string run_tetgen(const std::vector<Vec3>& points, const std::vector<std::a
   tetgenio in, out;
   in.numberofpoints = static_cast<int>(points.size());
   in.pointlist = copy(points);
-  if (!holes.empty()) {
-    in.numberofholes = static_cast<int>(holes.size());
-    in.holelist = copy(holes);
-  }
+  in.numberofholes = static_cast<int>(holes.size());
+  in.holelist = copy(holes);
   in.numberoffacets = static_cast<int>(triangles.size());
   in.facetlist = new tetgenio::facet[triangles.size()];
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -61,16 +58,12 @@ std::string run_tetgen(const std::vector<Vec3>& points, const std::vector<std::a
 
 }  // namespace
 
-std::optional<Mesh> tetrahedralise(const std::vector<Vec3>& points,
-                                   const std::vector<std::array<int, 3>>& triangles,
+std::optional<Mesh> tetrahedralise(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
                                    const std::vector<Vec3>& holes) {
   constexpr unsigned kSeconds = 60, kTrianglesPerSecond = 1000;  // a hundred times its usual time
   Mesh given;
   given.points = points, given.triangles = triangles;
-  const std::vector<int> number = drop_unused_points(given);
-  std::vector<int> used(given.points.size());
-  for (std::size_t v = 0; v < number.size(); ++v)
-    if (number[v] >= 0) used[number[v]] = static_cast<int>(v);
+  const std::vector<int> used = keep_used_points(given);
   const auto bytes = call_in_child([&] { return run_tetgen(given.points, given.triangles, holes); },
                                    kSeconds + static_cast<unsigned>(triangles.size()) / kTrianglesPerSecond);
   int n = 0;

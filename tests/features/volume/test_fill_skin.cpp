@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "features/volume/fill_steps.h"
 #include "geometry/mesh/cell_shapes.h"
 #include "geometry/mesh/half_edges.h"
 #include "tests/features/volume/volume_checks.h"
@@ -50,6 +51,20 @@ TEST(FillSkin, FillsBoxesAndBalls) {
 TEST(FillSkin, FillsConcaveBodies) {
   expect_filled(skin_of_labels(4, [](int i, int j, int) { return i < 2 || j < 2; }), 48);
   expect_filled(skin_of_labels(3, [](int i, int j, int k) { return (i + j + k) % 3 != 2 || k == 1; }), 21);
+}
+
+TEST(FillSkin, PutsALayerIntoThinBodies) {
+  Mesh skin = skin_of_labels(10, [](int, int, int k) { return k < 2; });
+  for (Vec3& p : skin.points) {  // quads above do not lie over quads below
+    const double x = p.x / 5 - 1, y = p.y / 5 - 1, turn = p.z > 1.5 ? 0.7 * (1 - x * x) * (1 - y * y) : 0;
+    p.x = 5 * (1 + std::cos(turn) * x - std::sin(turn) * y);
+    p.y = 5 * (1 + std::sin(turn) * x + std::cos(turn) * y);
+  }
+  Mesh plain = skin;
+  place_hexahedra(plain, "DBC");
+  const Mesh filled = fill_skin(skin);
+  expect_sound_cells(filled, volume_of(skin));
+  EXPECT_GT(measure(filled).shapes[0].volume, 1.02 * measure(plain).volume);
 }
 
 TEST(FillSkin, LeavesCavitiesOut) {
