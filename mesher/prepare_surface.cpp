@@ -589,8 +589,11 @@ CurveAgreement agreement_of(const MeshProblem& problem, const RetryHints& hints)
   const CurveOptions curves = curve_options(problem.options);
   const CriterionLimit* least = least_length(problem.criteria);
   return {regularity_options(problem.options).weight * curves.agreement,
-          hints.spots.empty() ? kMostAgreementSteps : kRetrySteps, curves.round_holes,
-          least != nullptr && least->in_sizes ? least->value : 0, curves.thin_rows};
+          hints.spots.empty() ? kMostAgreementSteps : kRetrySteps,
+          curves.round_holes,
+          least != nullptr && least->in_sizes ? least->value : 0,
+          curves.thin_rows,
+          kind_of(problem.model).in_plane ? !curves.thin_rows && curves.agreement > 0 : curves.thin_rows};
 }
 
 std::unique_ptr<ModelSteps> surface_steps(const MeshProblem& problem, const RetryHints& hints) {

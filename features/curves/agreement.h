@@ -12,9 +12,10 @@ constexpr long long kMostAgreementSteps = 200'000'000;
 struct CurveAgreement {
   double price = 0;  ///< of an irregular vertex, see agree_on_counts(); 0: numbers follow the size alone
   long long most_steps = kMostAgreementSteps;
-  bool round_holes = false;  ///< see widen_round_holes()
-  double shortest = 0;       ///< least length of edges on curves, in requested sizes, if possible
-  bool thin_rows = false;    ///< see CurveOptions::thin_rows
+  bool round_holes = false;   ///< see widen_round_holes()
+  double shortest = 0;        ///< least length of edges on curves, in requested sizes, if possible
+  bool thin_rows = false;     ///< see CurveOptions::thin_rows
+  bool narrow_grids = false;  ///< narrow faces become grids, too, see GridFinder
 };
 
 }  // namespace delquad

@@ -169,7 +169,6 @@ class CurveMesher {
   CurveMesher(const PlanarModel& model, const SizeField& size, const CurveMeshOptions& options)
       : model_(model),
         mapped_spec_(options.mapped),
-        narrow_grids_(options.narrow_grids),
         grid_size_(options.grid_size.get()),
         agreement_(options.agreement),
         size_(size),
@@ -409,7 +408,7 @@ class CurveMesher {
     const FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
     PieceCounts& counts = counts_.emplace(model_, flat_curves(lines, arrangement, regions, names, pieces_),
                                           images_, size_, agreement_.shortest, pieces_);
-    if (mapped_spec_.asks() || narrow_grids_) mapped_ = counts.find_grids(mapped_spec_);
+    if (mapped_spec_.asks() || agreement_.narrow_grids) mapped_ = counts.find_grids(mapped_spec_);
     if (!mapped_.empty()) counts.balance(mapped_spec_, grid_size_, mapped_);
     if (mapped_.empty()) counts.make_even();
     if (agreement_.price > 0) counts.agree(agreement_, size_, mapped_);
@@ -417,7 +416,6 @@ class CurveMesher {
 
   const PlanarModel& model_;
   const MappedSpec mapped_spec_;
-  const bool narrow_grids_;
   const SizeField* const grid_size_;
   const CurveAgreement agreement_;
   const SizeField& size_;

@@ -19,7 +19,6 @@ struct CurveMeshOptions {
   std::vector<CurveDivision> divisions = {};
   std::vector<PeriodicPair> periodic = {};
   MappedSpec mapped = {};
-  bool narrow_grids = false;  ///< narrow faces become grids, too, see GridFinder
   /// By which numbers of edges around grids are chosen; null: as all others. Sizes that follow the edges of
   /// grids must not make more of these.
   std::shared_ptr<const SizeField> grid_size = nullptr;

@@ -350,7 +350,7 @@ SurfaceDomain make_surface_domain(const SurfaceModel& model, Flattening flatteni
   SurfaceDomain domain;
   domain.warnings = warn_of_short_curves(fine, curves.chains, wanted);
   std::vector<MappedFace> grids;
-  if (mapped.asks() || agreement.thin_rows) grids = find_surface_grids(mapped, fine, curves, wanted);
+  if (mapped.asks() || agreement.narrow_grids) grids = find_surface_grids(mapped, fine, curves, wanted);
   const double quads = std::accumulate(wanted.quads.begin(), wanted.quads.end(), 0.0);
   const long long most_steps =
       std::min(agreement.most_steps, static_cast<long long>(kLeastAgreement + kAgreementPerQuad * quads));

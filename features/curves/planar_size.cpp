@@ -95,14 +95,12 @@ class SizedModel {
                const std::shared_ptr<const SizeField>& grid_size = nullptr) {
     p_.size.field = std::move(size);
     check_count_early(problem_, model_, p_.size.field);
-    const CurveOptions curves = curve_options(problem_.options);
     CurveMeshOptions options;
     options.grid_size = grid_size;
     options.max_edges = static_cast<double>(problem_.max_elements);
     options.divisions = problem_.divisions;
     options.periodic = problem_.periodic;
     options.mapped = problem_.mapped;
-    options.narrow_grids = !curves.thin_rows && curves.agreement > 0;
     options.agreement = agreement_;
     auto on_curves = p_.size.field;
     if (problem_.seed != 0) on_curves = jittered(std::move(on_curves), problem_.seed, diagonal_of(model_));

@@ -261,19 +261,16 @@ LooseLine loose_line(const EmbeddedLine& line, const std::string& where) {
 
 /// Regions of a planar model.
 SurfaceModel make_flat(const MeshProblem& problem, const PlanarModel& model) {
-  constexpr int kChords = 64;           // a curve
-  constexpr double kMetricEdge = 0.01;  // in diagonals: metrics divide edges
-  constexpr double kEdge = 0.25;        // in sizes
+  constexpr int kChords = 64;     // a curve
+  constexpr double kEdge = 0.25;  // in sizes
   // In diagonals. Shorter edges are only where longer ones cannot keep curves apart.
   constexpr double kLeastEdge = 1e-3, kShortest = 1e-5;
   const double diagonal = norm(box_of(model, kChords).size());
   std::vector<Warning> warnings;
-  const std::shared_ptr<const SizeField> asked =
-      problem.metric.asks() ? nullptr : planar_base_size(problem.size, model, warnings);
+  const auto asked = planar_base_size(problem.size, model, warnings);
   const auto make = [&](double least) {
     return flat_surface(model, *size_by([&](const Vec3& x, int& hint) {
-                          return asked ? std::max(kEdge * asked->at(x, hint), least * diagonal)
-                                       : kMetricEdge * diagonal;
+                          return std::max(kEdge * asked->at(x, hint), least * diagonal);
                         }));
   };
   SurfaceModel flat;

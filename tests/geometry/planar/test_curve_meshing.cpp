@@ -163,7 +163,7 @@ TEST(CurveMeshing, PatchesOfRandomModelsWithNumbersThatAgreeAreEven) {
 TEST(CurveMeshing, NodesOfNarrowRingsAreEven) {
   const PlanarModel ring = ModelMaker().loop({make_circle({0, 0}, 1)}).loop({make_circle({0, 0}, 0.8)});
   CurveMeshOptions options = agreeing();
-  options.narrow_grids = true;
+  options.agreement.narrow_grids = true;
   const Mesh mesh = mesh_curves(ring, constant(0.15), options);
   const std::vector<int> edges = edges_per_curve(mesh);
   EXPECT_EQ(edges[0], edges[1]);
