@@ -34,8 +34,8 @@ struct SymmetricHalf {
 
 /// Cuts a model at its planes and returns the part on their positive sides. `matches` has an entry for each
 /// plane. Curves that leave a plane and return to it within some sizes get a corner between, and so do cracks
-/// on planes. Otherwise two images could share an edge of the mesh. Throws InputError, beginning with `where`, if a face lies in a
-/// plane in part, and if a corner or a named point has no image.
+/// on planes. Otherwise two images could share an edge of the mesh. Throws InputError, beginning with
+/// `where`, if a face lies in a plane in part, and if a corner or a named point has no image.
 SymmetricHalf cut_symmetric(const SurfaceModel& whole, const SymmetryPlanes& planes,
                             const std::vector<MirrorMatch>& matches, const SizeField& size,
                             const std::string& where);
