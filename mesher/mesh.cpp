@@ -249,7 +249,7 @@ const std::vector<Quality>& quality_registry() {
            .set("regularity.tolerance", 0.0)
            .set("repair.across_cuts", false)},
       {"best", "DBQRO", CrossKind::kSizeAware, best},
-      {"regular", "DBQRO", CrossKind::kSizeAware, Options(best).set("regularity.weight", 3.0)},
+      {"regular", "DBCQRO", CrossKind::kSizeAware, Options(best).set("regularity.weight", 3.0)},
   };
   return registry;
 }
