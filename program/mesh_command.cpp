@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/activity.h"
@@ -248,7 +249,8 @@ void print_after(const MeshArguments& arguments, const MeshResult& result, doubl
                fmt::join(prepared.size.adapted_to, " and "));
   for (const auto& [at, n] : prepared.symmetry)
     fmt::print("  symmetry: plane through {}, normal {}\n", show_point(at), show_point(n));
-  if (!all && result.surface) print_surface_summary(*result.surface);
+  const bool is_outline = std::holds_alternative<PlanarModel>(result.prepared.problem().model);
+  if (!all && result.surface && !is_outline) print_surface_summary(*result.surface);
   print_names(result.mesh);
   if (const auto& of = result.mesh.thickness; !of.empty())
     fmt::print("  thickness: {:.4g} to {:.4g}\n", std::ranges::min(of), std::ranges::max(of));

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/box_tree.h"
 #include "base/sort_unique.h"
 #include "delquad/error.h"
 #include "features/curves/mesh_planar_curves.h"
@@ -67,16 +68,23 @@ class FlatGeometry final : public SurfaceProjector {
     for (std::size_t i = 0; i < pieces_.size(); ++i)
       if (const int curve = piece_curves[i]; curve >= 0)
         spans_[curve].push_back({{*pieces_[i].shape, pieces_[i].from, pieces_[i].to}, &pieces_[i]});
+    for (const auto& spans : spans_) {
+      std::vector<Box<Vec2>> boxes;
+      for (const PieceSpan& s : spans) boxes.push_back(s.span.box());
+      trees_.emplace_back(boxes);
+    }
   }
   Vec3 to_face(int, const Vec3& x) const override { return {x.x, x.y, 0}; }
   Vec3 to_curve(int curve, const Vec3& x) const override {
     CurveSpan::Place best{0, {x.x, x.y}, std::numeric_limits<double>::infinity()};
     const DomainPiece* piece = nullptr;
-    for (const auto& [span, of] : spans_[of_[curve]]) {
-      if (!(span.box().distance2({x.x, x.y}) < best.distance * best.distance)) continue;
+    double best2 = std::numeric_limits<double>::infinity();
+    trees_[of_[curve]].nearest(Vec2{x.x, x.y}, best2, [&](int i) {
+      const auto& [span, of] = spans_[of_[curve]][i];
       const CurveSpan::Place place = span.nearest({x.x, x.y});
-      if (place.distance < best.distance) best = place, piece = of;
-    }
+      if (!(place.distance < best.distance)) return;
+      best = place, piece = of, best2 = place.distance * place.distance;
+    });
     const Vec2 at = piece != nullptr ? improved(*piece, best, {x.x, x.y}) : best.at;
     return {at.x, at.y, 0};
   }
@@ -106,6 +114,7 @@ class FlatGeometry final : public SurfaceProjector {
   std::vector<DomainPiece> pieces_;  ///< keep their shapes
   std::vector<int> of_;
   std::vector<std::vector<PieceSpan>> spans_;
+  std::vector<BoxTree<Vec2>> trees_;  ///< boxes of the spans of each curve
 };
 
 /// Takes the points that lie on no curve out of a model, as lines of one point.
@@ -185,7 +194,7 @@ SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
   PlanarModel plain = given;
   std::vector<LooseLine> loose = take_single_points(plain);
   for (ModelCurve& curve : plain.curves) curve.is_crack = false;
-  const PlanarDomain domain = make_domain(plain, size);
+  const PlanarDomain domain = chord_domain(plain, size);
   SurfaceModel model = flat_model(domain, given.source);
   Mesh& mesh = model.fine;
   check_inside(loose, mesh);
@@ -198,9 +207,16 @@ SurfaceModel flat_surface(const PlanarModel& given, const SizeField& size) {
     const auto beside = sides_of_edge(sides, mesh.lines[l][0], mesh.lines[l][1]);
     if (beside.size() != 2) continue;
     const int face = region_of(mesh, beside[0].element);
-    if (region_of(mesh, beside[1].element) != face || !known.insert({curve, face}).second) continue;
+    const bool is_inside = region_of(mesh, beside[1].element) == face;
+    if (is_inside && !known.insert({curve, face}).second) continue;
     const auto& of_model = domain.model_curves[of_curve[curve]];
-    const bool is_crack = std::ranges::any_of(of_model, [&](int c) { return given.curves[c].is_crack; });
+    const auto crack = std::ranges::find_if(of_model, [&](int c) { return given.curves[c].is_crack; });
+    const bool is_crack = crack != of_model.end();
+    if (is_crack && !is_inside)
+      throw InputError(fmt::format(
+          "{}: a crack between two regions does not go with symmetry: expected one region around it",
+          curve_label(given, *crack)));
+    if (!is_inside) continue;
     model.embedded.push_back({curve, face, false, is_crack});
   }
   model.projector = std::make_shared<FlatGeometry>(domain.pieces, piece_curves, of_curve);

@@ -17,9 +17,9 @@ namespace delquad {
 SurfaceModel flat_model(const PlanarDomain& domain, const std::string& source);
 
 /// Returns a planar model as a surface in z = 0, with a flat face for each region and the model's curves as
-/// true geometry. The curves' chords are as long as `size`, at most. Curves run as in the model, and all its
-/// compulsory nodes are corners. Single points inside of regions are LooseLines. Throws InputError as
-/// make_domain().
+/// true geometry. Curves run as in the model in the chords of chord_domain(), and all compulsory nodes of the
+/// model are corners. Single points inside of regions are LooseLines. Throws InputError as chord_domain(),
+/// and for cracks between two regions.
 SurfaceModel flat_surface(const PlanarModel& model, const SizeField& size);
 
 }  // namespace delquad

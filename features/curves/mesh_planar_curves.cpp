@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -188,6 +187,14 @@ class CurveMesher {
     follow_masters(model_, images_, pieces_);
   }
 
+  /// Divides the curves into chords, as true to them as `fineness` says, see divide_by_chords().
+  CurveMesher(const PlanarModel& model, const SizeField& size, double fineness)
+      : model_(model), size_(size), chain_(chain_model(model)), pieces_(cut_curves(model, chain_)) {
+    name_curves();
+    set_least();
+    for (CurvePiece& p : pieces_) divide_by_chords(size, fineness, p);
+  }
+
   /// The nodes of each piece, numbered as in mesh().
   std::vector<CurveChain> node_chains() const {
     std::vector<CurveChain> chains;
@@ -232,8 +239,8 @@ class CurveMesher {
     const Arrangement arrangement = arrange_lines(lines, names);
     FaceRegions regions = regions_of_loops(lines, arrangement, chain_.loops, loops_of_curve(), names);
     check_embedded(model_, chain_, pieces_, lines, arrangement, regions);
-    std::vector<MappedPatch> mapped =
-        mapped_patches(mapped_, counts_->curves(), pieces_, arrangement, regions);
+    std::vector<MappedPatch> mapped;
+    if (!mapped_.empty()) mapped = mapped_patches(mapped_, counts_->curves(), pieces_, arrangement, regions);
     PlanarDomain domain = build_domain(std::move(lines), arrangement, std::move(regions), names,
                                        {cracks(), has_dangling() ? dangling_curve() : -1, true});
     check_loops_apart(loop_edges(), names);
@@ -415,9 +422,9 @@ class CurveMesher {
   }
 
   const PlanarModel& model_;
-  const MappedSpec mapped_spec_;
-  const SizeField* const grid_size_;
-  const CurveAgreement agreement_;
+  const MappedSpec mapped_spec_ = {};
+  const SizeField* const grid_size_ = nullptr;
+  const CurveAgreement agreement_ = {};
   const SizeField& size_;
   ModelChain chain_;
   std::vector<CurvePiece> pieces_;
@@ -439,6 +446,15 @@ PlanarDomain make_domain(const PlanarModel& model, const SizeField& size, const 
   CurveMeshOptions by_size = options;
   by_size.agreement.price = 0;
   return CurveMesher(model, size, by_size).domain();
+}
+
+PlanarDomain chord_domain(const PlanarModel& model, const SizeField& size) {
+  constexpr double kFinest = 1.0 / 256, kFiner = 1.0 / 4;
+  for (double fineness = 1;; fineness *= kFiner) try {
+      return CurveMesher(model, size, fineness).domain();
+    } catch (const InputError&) {
+      if (fineness <= kFinest) throw;
+    }
 }
 
 }  // namespace delquad

@@ -37,4 +37,8 @@ struct CurveMeshOptions {
 PlanarDomain make_domain(const PlanarModel& model, const SizeField& size,
                          const CurveMeshOptions& options = {});
 
+/// Returns the domain of chords of the model's curves, see divide_by_chords(). Chords become finer where they
+/// would cross. Throws InputError as make_domain(), but numbers of edges are not even.
+PlanarDomain chord_domain(const PlanarModel& model, const SizeField& size);
+
 }  // namespace delquad

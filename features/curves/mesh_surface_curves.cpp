@@ -148,7 +148,7 @@ constexpr long long kMostEdges = 1'000'000;
 /// So many times curves that keep boundaries from enclosing quads leave agreement.
 constexpr int kMostKept = 10;
 /// Steps of agreement: so many, and so many for each quad.
-constexpr double kLeastAgreement = 1e5, kAgreementPerQuad = 1e3;
+constexpr double kLeastAgreement = 1e6, kAgreementPerQuad = 1e4;
 /// With curves.thin = "rows" narrower places keep one row, in edges: two would be thinner than sheets allow.
 constexpr double kLeastSplit = 0.66;
 /// Where a patch is narrowest between these chains, and how wide: the least height of triangles with all

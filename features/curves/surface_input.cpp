@@ -10,7 +10,6 @@
 #include <numbers>
 #include <utility>
 
-#include "algorithms/fields/fields.h"
 #include "algorithms/fields/size_by.h"
 #include "base/disjoint_sets.h"
 #include "base/length_unit.h"
@@ -261,24 +260,13 @@ LooseLine loose_line(const EmbeddedLine& line, const std::string& where) {
 
 /// Regions of a planar model.
 SurfaceModel make_flat(const MeshProblem& problem, const PlanarModel& model) {
-  constexpr int kChords = 64;     // a curve
-  constexpr double kEdge = 0.25;  // in sizes
-  // In diagonals. Shorter edges are only where longer ones cannot keep curves apart.
-  constexpr double kLeastEdge = 1e-3, kShortest = 1e-5;
-  const double diagonal = norm(box_of(model, kChords).size());
+  constexpr int kChords = 64;          // a curve
+  constexpr double kLeastSize = 4e-3;  // in diagonals
+  const double least = kLeastSize * norm(box_of(model, kChords).size());
   std::vector<Warning> warnings;
   const auto asked = planar_base_size(problem.size, model, warnings);
-  const auto make = [&](double least) {
-    return flat_surface(model, *size_by([&](const Vec3& x, int& hint) {
-                          return std::max(kEdge * asked->at(x, hint), least * diagonal);
-                        }));
-  };
-  SurfaceModel flat;
-  try {
-    flat = make(kLeastEdge);
-  } catch (const InputError&) {
-    flat = make(kShortest);
-  }
+  SurfaceModel flat = flat_surface(
+      model, *size_by([&](const Vec3& x, int& hint) { return std::max(asked->at(x, hint), least); }));
   flat.fine.unit = problem.surface.unit;
   flat.warnings.insert(flat.warnings.begin(), model.notes.begin(), model.notes.end());
   return flat;

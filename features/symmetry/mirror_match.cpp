@@ -219,10 +219,19 @@ struct MirrorMatcher::Tables {
   std::string match_curves(const SymmetryPlanes& planes, int plane, MirrorMatch& match) const {
     int worst = -1;
     Deviation farthest;
+    std::vector<char> is_crack(mesh.curves.size(), 0);
+    for (const EmbeddedCurve& e : model.embedded) is_crack[e.curve] = e.is_crack;
     for (int c = 0; c < static_cast<int>(mesh.curves.size()); ++c) {
       if (is_dangling[c]) continue;
       check_cancelled();
       const Deviation off = match_curve(c, planes, plane, match.curves[c]);
+      const auto other =
+          std::ranges::find_if(match.curves[c], [&](int i) { return is_crack[i] != is_crack[c]; });
+      if (off.distance == 0 && other != match.curves[c].end()) {
+        match.by_embedded = true;
+        return fmt::format("of {} and its mirror image {} one is a crack", label("curve", mesh.curves[c]),
+                           label("curve", mesh.curves[*other]));
+      }
       if (off.distance == 0) continue;
       match.curves[c].clear();
       if (is_seam[c] && !is_embedded[c] && mesh.curves[c].names.empty()) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/segment.h"
 #include "delquad/error.h"
 #include "geometry/planar/curve_span.h"
 #include "geometry/planar/loops_apart.h"
@@ -135,6 +136,40 @@ std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& c
   std::vector<CurvePiece> pieces = join_equal_pieces(cut_at_stops(model, chain), tolerance);
   check_angles(model, chain, pieces);
   return pieces;
+}
+
+void divide_by_chords(const SizeField& size, double fineness, CurvePiece& piece) {
+  constexpr double kStray = 1.0 / 50, kStrayOfSize = 1.0 / 100, kLongest = 0.25;
+  constexpr double kRounding = 1e-9;  // of the chord: straight pieces
+  constexpr int kMostHalvings = 14, kChordsOfCurved = 2;
+  int hint = -1;
+  const std::function<void(double, Vec2, double, Vec2, int)> add = [&](double s, Vec2 a, double t, Vec2 b,
+                                                                       int halvings) {
+    double stray = 0;
+    for (const double part : {0.21, 0.37, 0.5, 0.63, 0.79}) {
+      const Vec2 x = piece.shape->point(s + part * (t - s));
+      stray = std::max(stray, norm(x - (a + nearest_part(x, a, b) * (b - a))));
+    }
+    const double chord = norm(b - a);
+    const Vec2 middle = 0.5 * (a + b);
+    const double wanted = size.at({middle.x, middle.y, 0}, hint);
+    const double most = fineness * std::min(kStray * chord, kStrayOfSize * wanted);
+    const bool is_straight = stray <= kRounding * chord;
+    const bool is_fine = stray <= most && chord <= kLongest * wanted;
+    if (halvings == kMostHalvings || (is_fine && (is_straight || halvings >= kChordsOfCurved))) return;
+    const double half = (s + t) / 2;
+    const Vec2 at = piece.shape->point(half);
+    add(s, a, half, at, halvings + 1);
+    piece.interior.push_back(half);
+    add(half, at, t, b, halvings + 1);
+  };
+  add(piece.from, piece.shape->point(piece.from), piece.to, piece.shape->point(piece.to), 0);
+  piece.n = static_cast<int>(piece.interior.size()) + 1;
+  if (piece.n >= piece.least) return;
+  piece.interior.clear();
+  for (int k = 1; k < piece.least; ++k)
+    piece.interior.push_back(piece.from + k * (piece.to - piece.from) / piece.least);
+  piece.n = piece.least;
 }
 
 std::vector<int> pieces_at_nodes(const std::vector<CurvePiece>& pieces, std::size_t n_nodes) {

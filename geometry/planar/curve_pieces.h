@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "delquad/fields.h"
 #include "geometry/planar/arc_measure.h"
 #include "geometry/planar/arrangement.h"
 #include "geometry/planar/face_regions.h"
@@ -54,6 +55,10 @@ struct CurvePiece {
 /// Returns the curves cut at their compulsory nodes. If pieces coincide, the first one stays. Throws
 /// InputError for curves of different loops that meet at an angle below 1e-4 radians.
 std::vector<CurvePiece> cut_curves(const PlanarModel& model, const ModelChain& chain);
+
+/// Divides a piece at `interior` into chords, at least `least`. They are at most as long as 1/4 of the size.
+/// They stray from the curve by 1/50 of their length and 1/100 of the size, both times `fineness`, 0 to 1.
+void divide_by_chords(const SizeField& size, double fineness, CurvePiece& piece);
 
 /// Returns for each curve of the model the loops (indices) with it.
 std::vector<std::vector<int>> loops_of_model_curves(const PlanarModel& model, const ModelChain& chain);
