@@ -264,7 +264,9 @@ SurfaceModel make_flat(const MeshProblem& problem, const PlanarModel& model) {
   constexpr double kLeastSize = 4e-3;  // in diagonals
   const double least = kLeastSize * norm(box_of(model, kChords).size());
   std::vector<Warning> warnings;
-  const auto asked = planar_base_size(problem.size, model, warnings);
+  auto asked = planar_base_size(problem.size, model, warnings);
+  if (const SymmetrySpec& spec = problem.symmetry; !spec.planes.empty())
+    asked = least_of_images(std::move(asked), given_planes(spec.planes, spec.where));
   SurfaceModel flat = flat_surface(
       model, *size_by([&](const Vec3& x, int& hint) { return std::max(asked->at(x, hint), least); }));
   flat.fine.unit = problem.surface.unit;
