@@ -148,7 +148,7 @@ TangentMetric TangentMetric::with_normal(const Vec3& normal) {
 
 Tensor2 TangentMetric::seen(const TangentMetric& other) const {
   if (e == other.e && f == other.f) return other.m;  // in flat faces
-  constexpr double kOpposite = 1e-6;  // 1 + cosine
+  constexpr double kOpposite = 1e-6;                 // 1 + cosine
   const Vec3 n = cross(e, f), o = cross(other.e, other.f);
   const double cosine = 1 + dot(n, o);
   const Vec3 turned = cosine > kOpposite ? other.e - (dot(other.e, n) / cosine) * (n + o) : other.e;
