@@ -10,6 +10,8 @@
 #include "geometry/mesh/entity_names.h"
 #include "mesher/prepare.h"
 #include "tests/support/expect_input_error.h"
+#include "tests/support/meshing.h"
+#include "tests/support/named_lines.h"
 
 namespace delquad {
 namespace {
@@ -220,7 +222,7 @@ TEST(Symmetry, CracksMayCrossRegionsAndThePlane) {
   expect_mirrored(r.mesh, about_x2);
 }
 
-TEST(Symmetry, SeedsTurnThePlanes) {
+TEST(Symmetry, SeedsKeepMeshesSound) {
   MeshProblem problem = symmetric_problem(symmetric_plate(), 0.11, {{{{2, 0, 0}, {1, 0, 0}}}});
   problem.seed = 5;
   const MeshResult r = mesh(problem, "DBCO");
@@ -340,6 +342,38 @@ TEST(Symmetry, GridsAroundHolesAreRefusedForTheHoles) {
   problem.mapped = {{"plate"}, false, "m 1"};
   expect_input_error([&] { mesh(problem, "DBCO"); },
                      {"'plate' cannot be a grid: something lies inside of it: expected one outline"});
+}
+
+TEST(Symmetry, CracksHaveCracksAsImages) {
+  const SymmetrySpec spec{{{{1, 0, 0}, {1, 0, 0}}}};
+  PlanarModel model = polygons({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}});
+  model.curves.push_back({make_segment({0.4, 0.5}, {0.7, 0.5}), "a", {}, true});
+  model.curves.push_back({make_segment({1.3, 0.5}, {1.6, 0.5}), "b", {}});
+  expect_refused(symmetric_problem(model, 0.1, spec), "DB", {"'a'", "'b'", "is a crack", "[not-symmetric]"});
+  model.curves.back().is_crack = true;
+  EXPECT_EQ(lines_named(mesh(symmetric_problem(model, 0.1, spec), "DB").mesh, "b").size(), 6u);
+}
+
+TEST(Symmetry, CracksBetweenRegionsAreRefused) {
+  PlanarModel model = polygons({{{0, 0}, {2, 0}, {2, 0.5}, {0, 0.5}}, {{0, 0.5}, {2, 0.5}, {2, 1}, {0, 1}}});
+  model.curves.push_back({make_segment({0.5, 0.5}, {1.5, 0.5}), "mid", {}, true});
+  expect_refused(symmetric_problem(model, 0.1, {{{{1, 0, 0}, {1, 0, 0}}}}), "DB",
+                 {"'mid'", "between two regions"});
+}
+
+TEST(Symmetry, SmallHolesStayRound) {
+  constexpr double kRadius = 0.0005;
+  const PlanarModel model = ModelMaker()
+                                .loop({make_segment({0, 0}, {2, 0}), make_segment({2, 0}, {2, 1}),
+                                       make_segment({2, 1}, {0, 1}), make_segment({0, 1}, {0, 0})})
+                                .loop({make_circle({0.3, 0.5}, kRadius)})
+                                .loop({make_circle({1.7, 0.5}, kRadius)});
+  MeshProblem problem = symmetric_problem(model, 0.1, {{{{1, 0, 0}, {1, 0, 0}}}});
+  problem.size.named.push_back({.name = "curve_5", .size = 1e-4});
+  const Mesh mesh = delquad::mesh(problem, "DBCO").mesh;
+  int on_hole = 0;
+  for (const Vec3& p : mesh.points) on_hole += std::abs(std::hypot(p.x - 0.3, p.y - 0.5) - kRadius) < 1e-12;
+  EXPECT_GE(on_hole, 24);
 }
 
 }  // namespace
